@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The one entry of the compiler: a scene goes in, an asset comes out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compiler/result.h"
+#include "compiler/scene/scene.h"
+#include "formats/fbt.h"
+
+namespace fetexc {
+
+/// --size: texels. Either a side is 0: it follows from the other by aspect.
+struct GridSize {
+    std::uint32_t width = 0, height = 0;
+};
+
+/// N texels on the longer side, the other by aspect (rounded, at least 1).
+GridSize grid_for(const Extent& extent, std::uint32_t longer_side);
+
+struct CompileOptions {
+    GridSize size;
+    unsigned threads = 1; ///< 0: all; never changes a byte of the output
+};
+
+/// Called from one thread at a time; fraction in [0,1].
+using ProgressSink = std::function<void(const char* stage, double fraction)>;
+
+/// Everything a stage did and avoided (DESIGN §8). Deterministic: no times in here.
+struct PlanarStats {
+    std::uint64_t segments = 0, segments_null = 0, degree_reduced = 0, pieces = 0, pieces_shared = 0;
+    std::uint64_t box_pairs = 0, pairs_certified = 0, pairs_exact = 0, overlaps = 0;
+    std::uint64_t vertices = 0, edges = 0, crossings = 0, grid_crossings = 0;
+    std::uint64_t exact_comparisons = 0; ///< order or side decisions that intervals couldn't make
+    std::uint64_t texels = 0, texels_empty = 0, texels_simple = 0, texels_arranged = 0;
+    std::uint64_t trapezoids = 0, regions = 0, edges_invisible = 0, edges_visible = 0;
+};
+struct FbtStats {
+    std::uint64_t texels_empty = 0, texels_two_regions = 0, texels_more_regions = 0, texels_banded = 0;
+    std::uint64_t bands = 0, bands_avoided = 0, features = 0, pieces = 0, regions = 0, regions_interpolated = 0;
+    std::uint64_t slivers_collapsed = 0, gpu_bytes = 0;
+};
+struct CompileReport {
+    SceneStats scene;
+    PlanarStats planar;
+    FbtStats fbt;
+    std::vector<Diagnostic> diagnostics;
+};
+
+/// FBT record index → ResultId is for tests: which visible result each entry (or empty texel) stands for.
+struct FbtBuild {
+    fetex::FbtTexture texture;
+    CompileReport report;
+};
+
+/// Builds the FBT of a scene. Errors: size out of range, arrangement limits, internal inconsistency (never a wrong result).
+Result<FbtBuild> compile_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress = {});
+
+} // namespace fetexc
