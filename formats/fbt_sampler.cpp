@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// The CPU reference sampler (SPEC.md, "Sampling an FBT"): plain, slow, in double. The GLSL sampler must agree with it.
+#include "formats/fbt.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fetex {
+namespace {
+
+struct Point {
+    double x = 0, y = 0;
+};
+
+Point decode_point(std::uint32_t word) { return {fbt_dequantise(word & 0xffffu), fbt_dequantise(word >> 16)}; }
+
+/// A query point in the frame of a ray: the ray runs along x, towards +x or −x. Rays along ±y see x and y swapped.
+struct Ray {
+    Point p;
+    bool swapped = false;
+    bool negative = false;
+
+    Ray(double fx, double fy, std::uint32_t direction)
+        : p(direction < kFbtRayPosY ? Point{fx, fy} : Point{fy, fx}), swapped(direction >= kFbtRayPosY),
+          negative((direction & 1u) != 0) {}
+    [[nodiscard]] Point to_frame(Point q) const { return swapped ? Point{q.y, q.x} : q; }
+};
+
+/// A piece of degree 1…3 in the frame of a ray.
+struct Piece {
+    std::uint32_t degree = 1;
+    std::array<Point, 4> c;
+    [[nodiscard]] const Point& front() const { return c[0]; }
+    [[nodiscard]] const Point& back() const { return c[degree]; }
+};
+
+double lerp(double a, double b, double t) { return a + (b - a) * t; }
+
+double bezier(double a, double b, double c, double t) { return lerp(lerp(a, b, t), lerp(b, c, t), t); }
+
+double bezier(double a, double b, double c, double d, double t) {
+    return lerp(bezier(a, b, c, t), bezier(b, c, d, t), t);
+}
+
+/// Root of the y-monotone quadratic in citardauq form: C is computed from a difference, B and the root of the
+/// discriminant have one sign, so nothing cancels. Pieces that quantisation made flat at an end can make the
+/// denominator 0: t = 0 then.
+double solve_quadratic(const Piece& q, double y) {
+    const double a = q.c[0].y - 2 * q.c[1].y + q.c[2].y, b = q.c[1].y - q.c[0].y, c = q.c[0].y - y;
+    const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+    const double denominator = b + (q.c[2].y >= q.c[0].y ? root : -root);
+    return denominator == 0 ? 0.0 : std::clamp(-c / denominator, 0.0, 1.0);
+}
+
+/// Root of the y-monotone cubic: Newton kept inside a bracket, bisection where a step would leave it. Stops when t no
+/// longer moves. The bracket test includes its ends: a converged step must not jump back to the middle.
+double solve_cubic(const Piece& q, double y) {
+    const double up = q.c[3].y >= q.c[0].y ? 1.0 : -1.0;
+    const double a = up * (q.c[3].y - q.c[0].y + 3 * (q.c[1].y - q.c[2].y));
+    const double b = up * 3 * (q.c[0].y - 2 * q.c[1].y + q.c[2].y);
+    const double c = up * 3 * (q.c[1].y - q.c[0].y);
+    const double d = up * (q.c[0].y - y);
+    double low = 0, high = 1, t = 0.5;
+    for (int step = 0; step < 128; ++step) { // bisection alone needs 53
+        const double f = ((a * t + b) * t + c) * t + d;
+        (f < 0 ? low : high) = t;
+        const double newton = t - f / ((3 * a * t + 2 * b) * t + c);
+        const double next = newton >= low && newton <= high ? newton : 0.5 * (low + high);
+        if (next == t) break;
+        t = next;
+    }
+    return t;
+}
+
+/// x of the crossing of the piece with the line y = p.y; p.y lies in the half-open interval of its end points.
+double crossing_x(const Piece& q, double y) {
+    const auto& c = q.c;
+    if (q.degree == 1) return lerp(c[0].x, c[1].x, (y - c[0].y) / (c[1].y - c[0].y));
+    if (q.degree == 2) return bezier(c[0].x, c[1].x, c[2].x, solve_quadratic(q, y));
+    return bezier(c[0].x, c[1].x, c[2].x, c[3].x, solve_cubic(q, y));
+}
+
+/// The normative predicate. Half-open in y so that a ray through a shared end point counts it once; the convex hull's
+/// box settles most curves without solving (FBT §5).
+bool crosses(const Piece& q, const Ray& ray, FbtQueryStats& stats) {
+    const auto [y_min, y_max] = std::minmax(q.front().y, q.back().y);
+    ++stats.pieces;
+    if ((ray.p.y >= y_min) == (ray.p.y >= y_max)) {
+        ++stats.outside;
+        return false;
+    }
+    const auto [left, right] = std::minmax_element(q.c.begin(), q.c.begin() + q.degree + 1,
+                                                   [](const Point& a, const Point& b) { return a.x < b.x; });
+    if (ray.p.x < left->x || ray.p.x >= right->x) {
+        ++stats.box;
+        return (ray.p.x < left->x) != ray.negative;
+    }
+    ++stats.solved[q.degree];
+    return (crossing_x(q, ray.p.y) > ray.p.x) != ray.negative;
+}
+
+/// Whether an odd number of the run's pieces is crossed.
+bool run_parity(const FbtTexture& texture, const std::uint32_t* entry, double fx, double fy, FbtQueryStats& stats) {
+    const std::uint32_t count = entry[1] & 0xffffu, degree = entry[1] >> 16 & 3u;
+    const Ray ray(fx, fy, entry[1] >> 18 & 3u);
+    const std::uint32_t* words = texture.records.data() + std::size_t{entry[0]} * 4;
+    // Consecutive pieces of a polyline share a point; curves take a whole record each.
+    const std::size_t stride = degree == 1 ? 1 : 4;
+    bool odd = false;
+    for (std::uint32_t k = 0; k < count; ++k, words += stride) {
+        Piece piece;
+        piece.degree = degree;
+        for (std::uint32_t n = 0; n <= degree; ++n)
+            piece.c[n] = ray.to_frame(decode_point(words[n]));
+        odd ^= crosses(piece, ray, stats);
+    }
+    return odd;
+}
+
+/// Record index of the first entry of the band that holds fy (FBT §5, step 3).
+std::uint32_t find_band(const FbtTexture& texture, std::uint32_t directory, double fy, FbtQueryStats& stats) {
+    const std::uint32_t* words = texture.records.data() + std::size_t{directory} * 4;
+    std::uint32_t low = 0, high = words[0] - 1; // the answer is in [low, high]
+    while (low < high) {
+        ++stats.bands;
+        const std::uint32_t middle = (low + high) / 2;
+        if (fy < fbt_dequantise(words[2 + 2 * middle])) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return words[3 + 2 * low];
+}
+
+/// First feature, in order, whose parity is odd; else the terminator (FBT §4.5).
+std::uint32_t find_entry(const FbtTexture& texture, std::uint32_t record, double fx, double fy, FbtQueryStats& stats) {
+    bool odd = false;
+    for (;; ++record) {
+        const std::uint32_t* entry = texture.records.data() + std::size_t{record} * 4;
+        ++stats.entries;
+        if (entry[1] & kFbtEntryTerminator) return record;
+        odd ^= run_parity(texture, entry, fx, fy, stats);
+        if ((entry[1] & kFbtEntryLastRun) == 0) continue;
+        if (odd) return record;
+        odd = false;
+    }
+}
+
+const std::uint32_t* texel_words(const FbtTexture& texture, std::uint32_t i, std::uint32_t j) {
+    return texture.texels.data() + (std::size_t{j} * (texture.width + texture.apron) + i) * 2;
+}
+
+double clamp_coordinate(double v, std::uint32_t size) {
+    return v > 0 ? std::min(v, static_cast<double>(size)) : 0.0; // NaN becomes 0
+}
+
+std::uint32_t base_texel(double v, std::uint32_t size) { return std::min(static_cast<std::uint32_t>(v), size - 1); }
+
+} // namespace
+
+FbtRegion fbt_locate_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy,
+                           FbtQueryStats* stats) {
+    FbtQueryStats ignored;
+    FbtQueryStats& counts = stats ? *stats : ignored;
+    ++counts.queries;
+    FbtRegion region;
+    region.i = std::min(i, texture.width - 1);
+    region.j = std::min(j, texture.height - 1);
+    const std::uint32_t* texel = texel_words(texture, region.i, region.j);
+    const std::uint32_t kind = texel[1] >> 30;
+    if (kind == kFbtKindEmpty) {
+        region.sample = texel[0];
+        region.mask = texel[1] & 0xffu;
+        return region;
+    }
+    std::uint32_t first = texel[1] & kFbtAddressMask;
+    if (kind == kFbtKindBanded) first = find_band(texture, first, fy, counts);
+    region.record = find_entry(texture, first, fx, fy, counts);
+    region.sample = texture.records[std::size_t{region.record} * 4 + 2];
+    region.mask = texture.records[std::size_t{region.record} * 4 + 3] & 0xffu;
+    return region;
+}
+
+FbtColor fbt_shade(const FbtTexture& texture, const FbtRegion& region, double fx, double fy) {
+    std::array<double, 4> sum{};
+    for (std::uint32_t corner = 0; corner < 4; ++corner) {
+        const std::uint32_t code = region.mask >> (2 * corner) & 3u;
+        const std::uint32_t sample =
+            code == 0 ? region.sample : *texel_words(texture, region.i + (code & 1u), region.j + (code >> 1));
+        const double weight = ((corner & 1u) ? fx : 1 - fx) * ((corner & 2u) ? fy : 1 - fy);
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            sum[channel] += weight * static_cast<double>(sample >> (8 * channel) & 0xffu);
+    }
+    return {sum[0] / 255, sum[1] / 255, sum[2] / 255, sum[3] / 255};
+}
+
+FbtRegion fbt_locate(const FbtTexture& texture, double x, double y) {
+    const double cx = clamp_coordinate(x, texture.width), cy = clamp_coordinate(y, texture.height);
+    const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
+    return fbt_locate_local(texture, i, j, cx - i, cy - j);
+}
+
+FbtColor fbt_sample(const FbtTexture& texture, double x, double y) {
+    const double cx = clamp_coordinate(x, texture.width), cy = clamp_coordinate(y, texture.height);
+    const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
+    return fbt_sample_local(texture, i, j, cx - i, cy - j);
+}
+
+FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy) {
+    return fbt_shade(texture, fbt_locate_local(texture, i, j, fx, fy), fx, fy);
+}
+
+std::uint32_t fbt_quantise(double v) {
+    const double u = std::floor((v + 0.5) * 0x1p15 + 0.5);
+    return static_cast<std::uint32_t>(std::clamp(u, 0.0, 65535.0));
+}
+
+std::uint32_t fbt_pack_point(double x, double y) { return fbt_quantise(x) | fbt_quantise(y) << 16; }
+
+} // namespace fetex
