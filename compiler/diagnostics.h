@@ -15,4 +15,17 @@ inline constexpr int kSliversCollapsed = 4101;     ///< regions thinner than the
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
 inline constexpr int kFbtTooLarge = 5002;    ///< more records than the format can address
 
+// Command line and files (owner: cli)
+inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened
+inline constexpr int kCannotRead = 8002;          ///< an input can't be read
+inline constexpr int kInputTooLong = 8003;        ///< an input is longer than the limit of bytes
+inline constexpr int kCannotCreate = 8011;        ///< an output can't be created
+inline constexpr int kCannotWrite = 8012;         ///< an output can't be written; what was there before is untouched
+inline constexpr int kCannotMakeFolder = 8013;    ///< the output folder can't be made
+inline constexpr int kWouldOverwriteInput = 8014; ///< the output is one of the inputs
+inline constexpr int kSameOutputTwice = 8015;     ///< two inputs would be written to one file
+inline constexpr int kDepfileName = 8021;         ///< a file name that a dependency file can't hold
+inline constexpr int kCannotEncodePicture = 8031; ///< the picture can't be encoded
+inline constexpr int kBadUsage = 8041;            ///< unknown option, bad value or combination
+
 } // namespace fetexc::diag
