@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// Little-endian loads and stores, the same on every machine.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fetex {
+
+using ByteSpan = std::span<const std::uint8_t>;
+
+/// Little-endian integer at an offset. Precondition: offset + sizeof(T) ≤ bytes.size().
+template <class T> T load_le(ByteSpan bytes, std::size_t offset) {
+    T value = 0;
+    for (std::size_t k = 0; k < sizeof(T); ++k)
+        value = static_cast<T>(value | static_cast<T>(static_cast<T>(bytes[offset + k]) << (8 * k)));
+    return value;
+}
+
+/// Appends a little-endian integer.
+template <class T> void append_le(std::vector<std::uint8_t>& out, T value) {
+    for (std::size_t k = 0; k < sizeof(T); ++k)
+        out.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+}
+
+} // namespace fetex

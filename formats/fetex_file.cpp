@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+#include "formats/fetex_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "formats/validate.h"
+
+namespace fetex {
+namespace {
+
+constexpr FourCc kMeta = fourcc("META"), kFbtHeader = fourcc("FBTH"), kFbtTexels = fourcc("FBTT"),
+                 kFbtRecords = fourcc("FBTR");
+constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
+constexpr std::uint32_t kFlagBands = 1, kFlagInterpolated = 2, kFlagTranslucent = 4, kFlagsKnown = 7;
+
+using Words = std::vector<std::uint32_t>;
+
+std::vector<std::uint8_t> to_bytes(const Words& words) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(words.size() * 4);
+    for (const std::uint32_t word : words)
+        append_le(bytes, word);
+    return bytes;
+}
+
+Words to_words(ByteSpan bytes) {
+    Words words(bytes.size() / 4);
+    for (std::size_t k = 0; k < words.size(); ++k)
+        words[k] = load_le<std::uint32_t>(bytes, 4 * k);
+    return words;
+}
+
+/// Length of the UTF-8 sequence at `at`, 0 if there is none: no overlong forms, surrogates or values past U+10FFFF.
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+    const auto byte = [&](std::size_t k) -> std::uint32_t {
+        return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u;
+    };
+    const auto tail = [&](std::size_t k) { return (byte(k) & 0xc0u) == 0x80u; };
+    const std::uint32_t lead = byte(0);
+    if (lead < 0x80) return 1;
+    if (lead >= 0xc2 && lead < 0xe0) return tail(1) ? 2 : 0;
+    if (lead >= 0xe0 && lead < 0xf0) {
+        const std::uint32_t low = lead == 0xe0 ? 0xa0 : 0x80, high = lead == 0xed ? 0x9f : 0xbf;
+        return byte(1) >= low && byte(1) <= high && tail(2) ? 3 : 0;
+    }
+    if (lead >= 0xf0 && lead < 0xf5) {
+        const std::uint32_t low = lead == 0xf0 ? 0x90 : 0x80, high = lead == 0xf4 ? 0x8f : 0xbf;
+        return byte(1) >= low && byte(1) <= high && tail(2) && tail(3) ? 4 : 0;
+    }
+    return 0;
+}
+
+bool is_utf8(const std::string& text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = utf8_length(text, at);
+        if (length == 0) return false;
+        at += length;
+    }
+    return true;
+}
+
+std::vector<std::uint8_t> write_metadata(const Metadata& metadata) {
+    Metadata clean;
+    for (const auto& [key, value] : metadata)
+        if (!key.empty()) clean.emplace(to_valid_utf8(key), to_valid_utf8(value));
+    std::vector<std::uint8_t> out;
+    append_le(out, static_cast<std::uint32_t>(clean.size()));
+    for (const auto& [key, value] : clean) {
+        append_le(out, static_cast<std::uint32_t>(key.size()));
+        append_le(out, static_cast<std::uint32_t>(value.size()));
+        out.insert(out.end(), key.begin(), key.end());
+        out.insert(out.end(), value.begin(), value.end());
+    }
+    return out;
+}
+
+Finding bad_metadata(const ChunkView& chunk, std::size_t at, const char* message) {
+    return {FindingCode::BadMetadata, chunk.offset + at, std::string("META: ") + message};
+}
+
+std::optional<Finding> read_metadata(Metadata& out, const ChunkView& chunk) {
+    const ByteSpan bytes = chunk.payload;
+    if (bytes.size() < 4) return bad_metadata(chunk, 0, "no room for the count");
+    const std::uint32_t count = load_le<std::uint32_t>(bytes, 0);
+    std::size_t at = 4;
+    std::string previous; // keys aren't empty, so any first key is greater
+    for (std::uint32_t k = 0; k < count; ++k) {
+        if (bytes.size() - at < 8) return bad_metadata(chunk, at, "fewer entries than counted");
+        const std::uint64_t key_size = load_le<std::uint32_t>(bytes, at);
+        const std::uint64_t value_size = load_le<std::uint32_t>(bytes, at + 4);
+        at += 8;
+        if (key_size + value_size > bytes.size() - at) return bad_metadata(chunk, at, "an entry leaves the chunk");
+        const auto* text = reinterpret_cast<const char*>(bytes.data()) + at;
+        std::string key(text, static_cast<std::size_t>(key_size));
+        std::string value(text + key_size, static_cast<std::size_t>(value_size));
+        if (!is_utf8(key) || !is_utf8(value)) return bad_metadata(chunk, at, "not UTF-8");
+        if (key <= previous) return bad_metadata(chunk, at, "keys are empty, repeated or not sorted");
+        at += static_cast<std::size_t>(key_size + value_size);
+        previous = key;
+        out.emplace(std::move(key), std::move(value));
+    }
+    if (at != bytes.size()) return bad_metadata(chunk, at, "bytes after the last entry");
+    return std::nullopt;
+}
+
+Words fbt_header_words(const FbtTexture& t) {
+    Words words = {t.width,
+                   t.height,
+                   t.apron,
+                   0, // sample format: RGBA8, premultiplied, sRGB-encoded
+                   t.traits.max_degree,
+                   t.traits.degrees,
+                   (t.traits.bands ? kFlagBands : 0) | (t.traits.interpolated ? kFlagInterpolated : 0) |
+                       (t.traits.translucent ? kFlagTranslucent : 0),
+                   t.traits.directions,
+                   t.traits.max_entries,
+                   t.traits.max_bands,
+                   static_cast<std::uint32_t>(t.records.size() / 4)};
+    words.resize(kFbtHeaderWords, 0);
+    return words;
+}
+
+void append_fbt_chunks(std::vector<Chunk>& chunks, const FbtTexture& texture, std::uint8_t representation) {
+    chunks.push_back({kFbtHeader, kChunkCritical, representation, 0, to_bytes(fbt_header_words(texture))});
+    chunks.push_back({kFbtTexels, kChunkCritical, representation, 0, to_bytes(texture.texels)});
+    chunks.push_back({kFbtRecords, kChunkCritical, representation, 0, to_bytes(texture.records)});
+}
+
+/// The three chunks of one FBT.
+struct FbtChunks {
+    const ChunkView* header = nullptr;
+    const ChunkView* texels = nullptr;
+    const ChunkView* records = nullptr;
+};
+
+/// FBTH: dimensions and traits; `records` gets the stated count.
+std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, const ChunkView& chunk) {
+    const auto bad = [&](std::size_t word, const char* message) {
+        return Finding{FindingCode::BadFbtHeader, chunk.offset + word * 4, std::string("FBTH: ") + message};
+    };
+    if (chunk.payload.size() != kFbtHeaderWords * 4) return bad(0, "not 64 bytes");
+    const Words w = to_words(chunk.payload);
+    out.width = w[0];
+    out.height = w[1];
+    out.apron = w[2];
+    if (out.width < 1 || out.width > kFbtMaxSide || out.height < 1 || out.height > kFbtMaxSide || out.apron > 1)
+        return bad(0, "width or height outside 1 … 16384, or apron beyond 1");
+    if (w[3] != 0) return bad(3, "unknown sample format");
+    if ((w[6] & ~kFlagsKnown) != 0) return bad(6, "unknown flags");
+    out.traits.max_degree = w[4];
+    out.traits.degrees = w[5];
+    out.traits.bands = (w[6] & kFlagBands) != 0;
+    out.traits.interpolated = (w[6] & kFlagInterpolated) != 0;
+    out.traits.translucent = (w[6] & kFlagTranslucent) != 0;
+    out.traits.directions = w[7];
+    out.traits.max_entries = w[8];
+    out.traits.max_bands = w[9];
+    records = w[10];
+    for (std::size_t k = 11; k < kFbtHeaderWords; ++k)
+        if (w[k] != 0) return bad(k, "reserved words aren't 0");
+    return std::nullopt;
+}
+
+std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
+    std::uint32_t records = 0;
+    if (auto bad = read_fbt_header(out, records, *chunks.header)) return bad;
+    const std::uint64_t texels = std::uint64_t{out.width + out.apron} * (out.height + out.apron);
+    if (chunks.texels->payload.size() != texels * 8)
+        return Finding{FindingCode::FbtSizeMismatch, chunks.texels->offset, "FBTT: wrong length for the dimensions"};
+    if (chunks.records->payload.size() != std::uint64_t{records} * 16)
+        return Finding{FindingCode::FbtSizeMismatch, chunks.records->offset, "FBTR: wrong length for the record count"};
+    out.texels = to_words(chunks.texels->payload);
+    out.records = to_words(chunks.records->payload);
+    return std::nullopt;
+}
+
+/// validate_fbt counts offsets within a part; this moves them to the file.
+void to_file_offsets(std::vector<Finding>& findings, const FbtChunks& chunks) {
+    for (Finding& finding : findings) {
+        const bool in_texels = finding.message.starts_with("texels"),
+                   in_records = finding.message.starts_with("records");
+        finding.offset += (in_texels ? chunks.texels : in_records ? chunks.records : chunks.header)->offset;
+    }
+}
+
+/// Everything a reader does, up to `limit` findings. `out` is complete if there are none.
+class Reader {
+  public:
+    Reader(FetexFile& out, std::size_t limit) : out_(out), limit_(limit) {}
+
+    void read(ByteSpan bytes) {
+        ContainerView container;
+        if (auto bad = read_container(container, bytes)) return findings_.push_back(std::move(*bad));
+        for (const ChunkView& chunk : container.chunks)
+            if (auto bad = sort_in(chunk)) return findings_.push_back(std::move(*bad));
+        if (metadata_)
+            if (auto bad = read_metadata(out_.metadata, *metadata_)) return findings_.push_back(std::move(*bad));
+        read_fbt_chunks();
+    }
+    std::vector<Finding> take() { return std::move(findings_); }
+
+  private:
+    /// Level 0 of the known chunks; the FBT of the lowest representation number is the one that is read.
+    std::optional<Finding> sort_in(const ChunkView& chunk) {
+        const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtRecords;
+        if (chunk.type == kMeta && chunk.representation == kWholeFile && chunk.level == 0) {
+            metadata_ = &chunk;
+        } else if (fbt && chunk.representation != kWholeFile && chunk.level == 0) {
+            FbtChunks& group = fbts_[chunk.representation];
+            (chunk.type == kFbtHeader   ? group.header
+             : chunk.type == kFbtTexels ? group.texels
+                                        : group.records) = &chunk;
+        } else if ((chunk.flags & kChunkCritical) != 0) {
+            return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
+                           "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};
+        }
+        return std::nullopt;
+    }
+
+    void read_fbt_chunks() {
+        for (const auto& [representation, chunks] : fbts_) {
+            if (!chunks.header || !chunks.texels || !chunks.records)
+                return findings_.push_back(
+                    {FindingCode::MissingChunk, 0,
+                     "representation " + std::to_string(representation) + ": an FBT needs FBTH, FBTT and FBTR"});
+        }
+        if (fbts_.empty()) return;
+        const FbtChunks& chunks = fbts_.begin()->second;
+        FbtTexture texture;
+        if (auto bad = read_fbt(texture, chunks)) return findings_.push_back(std::move(*bad));
+        findings_ = validate_fbt(texture, limit_);
+        to_file_offsets(findings_, chunks);
+        if (findings_.empty()) out_.fbt = std::move(texture);
+    }
+
+    FetexFile& out_;
+    std::size_t limit_;
+    const ChunkView* metadata_ = nullptr;
+    std::map<std::uint8_t, FbtChunks> fbts_;
+    std::vector<Finding> findings_;
+};
+
+} // namespace
+
+std::string to_valid_utf8(const std::string& text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = utf8_length(text, at);
+        out += length == 0 ? "\xef\xbf\xbd" : text.substr(at, length);
+        at += std::max<std::size_t>(length, 1);
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> write_file(const FetexFile& file) {
+    std::vector<Chunk> chunks;
+    chunks.push_back({kMeta, 0, kWholeFile, 0, write_metadata(file.metadata)});
+    if (file.fbt) append_fbt_chunks(chunks, *file.fbt, 0);
+    return write_container(chunks);
+}
+
+std::optional<Finding> read_file(FetexFile& out, ByteSpan bytes) {
+    out = {};
+    FetexFile file;
+    Reader reader(file, 1);
+    reader.read(bytes);
+    std::vector<Finding> findings = reader.take();
+    if (!findings.empty()) return std::move(findings.front());
+    out = std::move(file);
+    return std::nullopt;
+}
+
+std::vector<Finding> validate_file(ByteSpan bytes, std::size_t limit) {
+    FetexFile file;
+    Reader reader(file, std::max<std::size_t>(limit, 1));
+    reader.read(bytes);
+    return reader.take();
+}
+
+} // namespace fetex

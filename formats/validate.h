@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// The full check of an FBT: a texture without findings can be sampled at any point, on the CPU and in GLSL, without an
+/// access out of range and without an unbounded loop, and decodes the same way on both.
+#pragma once
+
+#include <vector>
+
+#include "formats/fbt.h"
+#include "formats/findings.h"
+
+namespace fetex {
+
+inline constexpr std::uint32_t kFbtMaxSide = 16384;
+inline constexpr std::uint32_t kFbtMaxEntries = 1u << 20; ///< in one band, terminator included
+/// Steps of 2^-15 texel by which a piece may turn back in x or y: rounding its control points gives 1, and as much for
+/// each of cutting, monotone splitting and end points moved to shared vertices.
+inline constexpr double kFbtMonotoneSlack = 4;
+
+/// Findings, at most `limit`; offsets are bytes from the start of the texels or the records, as the message says.
+/// Takes time and memory in proportion to the texture, whatever its content.
+std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit = 64);
+
+/// The traits a texture has; entries of a list count with their terminator, samples of every texel and apron count.
+/// Safe on any content: parts that validate_fbt would refuse are left out.
+FbtTraits fbt_traits(const FbtTexture& texture);
+
+} // namespace fetex
