@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// What is drawn and what comes out, the same for every renderer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fetex {
+
+/// The part of the texture to draw, in texture space: x right, y down, [0,1]² is the whole texture. Beyond it the edge
+/// is repeated. Limits: finite, w and h > 0, all of magnitude at most kMaxView.
+struct View {
+    double x = 0, y = 0, w = 1, h = 1;
+};
+inline constexpr double kMaxView = 16384;
+
+/// Pixels to draw, and N×N samples in each, on a regular grid, averaged (premultiplied, sRGB-encoded values).
+struct RenderSize {
+    std::uint32_t width = 0, height = 0; ///< 1 … kMaxImageSide
+    std::uint32_t supersample = 1;       ///< 1 … kMaxSupersample
+};
+inline constexpr std::uint32_t kMaxImageSide = 32768, kMaxSupersample = 16;
+
+/// Premultiplied sRGB RGBA, 0…1, row-major, top row first.
+struct Image {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> rgba;
+};
+
+/// Nearest 8-bit values, clamped.
+std::vector<std::uint8_t> to_rgba8(const Image& image);
+
+/// Numbers as in the compiler's list of diagnostics: 7xxx is the runtime.
+enum class RuntimeErrc : int {
+    BadView = 7001,           ///< view or size outside its limits
+    BackendMissing = 7002,    ///< library, display or device isn't there
+    ContextFailed = 7003,     ///< the back end is there, but gives no context
+    GlTooOld = 7004,          ///< functions or formats that the runtime needs are missing
+    ShaderFailed = 7005,      ///< compile or link error, with the log
+    TextureTooLarge = 7006,   ///< beyond this device's limits
+    NothingUploaded = 7007,   ///< render before upload
+    OutOfMemoryOrLost = 7008, ///< GL reported an error while drawing
+};
+
+struct RuntimeError {
+    RuntimeErrc code{};
+    std::string message;
+};
+
+/// Value or error.
+template <class T> class [[nodiscard]] Outcome {
+  public:
+    Outcome(T value) : value_(std::move(value)) {}
+    Outcome(RuntimeError error) : error_(std::move(error)) {}
+    [[nodiscard]] bool ok() const { return value_.has_value(); }
+    explicit operator bool() const { return ok(); }
+    [[nodiscard]] T& value() { return *value_; }
+    [[nodiscard]] const T& value() const { return *value_; }
+    [[nodiscard]] const RuntimeError& error() const { return error_; }
+
+  private:
+    std::optional<T> value_;
+    RuntimeError error_;
+};
+
+/// nullopt: all is well.
+using RuntimeStatus = std::optional<RuntimeError>;
+
+} // namespace fetex

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// Draws an FBT, or a plain bitmap to compare it with, off screen. No GL library is linked: a back end is opened with
+/// dlopen when it is asked for. Every pixel centre is computed in 32.32 fixed point (sample_grid.h), on the GPU and on
+/// the CPU alike: a view may be as deep as wanted.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "formats/fbt.h"
+#include "runtime_glsl/host/image.h"
+#include "runtime_glsl/host/shader_source.h"
+
+namespace fetex {
+
+enum class Backend : std::uint8_t { OSMesa, EglSurfaceless, EglDevice, Glfw };
+inline constexpr Backend kBackends[] = {Backend::OSMesa, Backend::EglSurfaceless, Backend::EglDevice, Backend::Glfw};
+
+/// "osmesa", "egl-surfaceless", "egl-device", "glfw".
+const char* backend_name(Backend backend);
+
+/// Whether a back end can draw here: opens and closes a context.
+struct BackendStatus {
+    bool available = false;
+    std::string detail; ///< GL version and renderer, or why not
+};
+BackendStatus probe_backend(Backend backend);
+
+struct RendererOptions {
+    Backend backend = Backend::OSMesa;
+    Dialect dialect = Dialect::Glsl330; ///< of the shaders; EGL gives an ES context for Essl300
+    bool texture_buffer = false;        ///< records in a texture buffer; not with Essl300
+};
+
+/// One context and what is uploaded to it. Not for several threads at once. The context is current only inside a call,
+/// so renderers of different back ends can live side by side (GLX dies if another API's context is still current).
+class Renderer {
+  public:
+    static Outcome<Renderer> open(const RendererOptions& options);
+    static Outcome<Renderer> open(Backend backend) { return open(RendererOptions{.backend = backend}); }
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// GL version and renderer, for reports.
+    [[nodiscard]] const std::string& description() const;
+
+    /// Uploads the texture and builds the shader that it needs. Precondition: the texture passes validate_fbt.
+    RuntimeStatus upload(const FbtTexture& texture);
+    Outcome<Image> render(const View& view, const RenderSize& size);
+
+    /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
+    RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
+    /// Bilinear interpolation in full precision, edges repeated.
+    Outcome<Image> render_bitmap(const View& view, const RenderSize& size);
+
+    /// Draws the same frame `rounds` times without reading it back and gives the CPU time of each draw with glFinish,
+    /// in seconds (all threads of the process): for cost ratios on software renderers. FBT if `fbt`, else the bitmap
+    /// through the sampler's LINEAR filter, the plain lookup to compare with.
+    Outcome<std::vector<double>> time_draws(bool fbt, const View& view, std::uint32_t side, std::uint32_t rounds);
+
+  private:
+    struct State;
+    explicit Renderer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+/// The reference: the same pixel centres through fbt_sample_local, in double. threads 0: all. Never depends on it.
+Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const RenderSize& size, unsigned threads = 0);
+/// As Renderer::render_bitmap, on the CPU.
+Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,
+                                 std::uint32_t bitmap_height, const View& view, const RenderSize& size);
+
+} // namespace fetex

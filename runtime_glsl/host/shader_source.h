@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// The GLSL library as text, put together for a dialect and specialised to an asset. The same text lies in the folder
+/// above as plain files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "formats/fbt.h"
+
+namespace fetex {
+
+enum class Dialect : std::uint8_t { Glsl330, Glsl430, Essl300, Vulkan450 };
+inline constexpr Dialect kDialects[] = {Dialect::Glsl330, Dialect::Glsl430, Dialect::Essl300, Dialect::Vulkan450};
+
+/// "330", "430", "300es", "vulkan450".
+const char* dialect_name(Dialect dialect);
+
+/// #version, precision, and the macros that hide the dialects' differences.
+std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
+
+/// The macros that leave out of the sampler what an asset doesn't need. "" leaves everything in.
+std::string fbt_specialisation(const FbtTraits& traits);
+
+/// Prelude, specialisation and fetex_fbt.glsl: a fragment shader may follow.
+std::string fbt_library_source(Dialect dialect, const FbtTraits& traits, bool texture_buffer = false);
+
+/// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, and the bitmap
+/// through the hardware filter.
+std::string view_vertex_source(Dialect dialect);
+std::string fbt_fragment_source(Dialect dialect, const FbtTraits& traits, bool texture_buffer = false);
+std::string bitmap_fragment_source(Dialect dialect);
+std::string filtered_bitmap_fragment_source(Dialect dialect);
+
+} // namespace fetex
