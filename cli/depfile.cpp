@@ -28,11 +28,13 @@ Result<std::string> depfile_text(const std::vector<DepfileRule>& rules) {
     std::string text;
     for (const DepfileRule& rule : rules) {
         text += escape(rule.output) + ":";
-        for (const std::string& input : rule.inputs) text += " " + escape(input);
+        for (const std::string& input : rule.inputs)
+            text += " " + escape(input);
         text += "\n";
         for (const std::string& name : rule.inputs) {
             if (name.find('\n') != std::string::npos || rule.output.find('\n') != std::string::npos)
-                return Error{ErrorClass::Usage, diag::kDepfileName, "a dependency file can't name a file with a newline", name};
+                return Error{ErrorClass::Usage, diag::kDepfileName,
+                             "a dependency file can't name a file with a newline", name};
         }
     }
     return text;

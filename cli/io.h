@@ -14,8 +14,9 @@ namespace fetexc::cli {
 /// Errors E8001 (can't open), E8002 (can't read), E8003 (longer than limit bytes).
 Result<std::vector<std::uint8_t>> read_input(const std::string& path, std::uint64_t limit);
 
-/// Writes to a temporary file in the folder of path, then renames it over path: a reader sees the old bytes or all of the new ones.
-/// Devices and pipes are written in place; a symbolic link keeps pointing where it did. Errors E8011, E8012.
+/// Writes to a temporary file in the folder of path, then renames it over path: a reader sees the old bytes or all of
+/// the new ones. Devices and pipes are written in place; a symbolic link keeps pointing where it did. Errors E8011,
+/// E8012.
 Status write_output(const std::string& path, std::span<const std::uint8_t> bytes);
 Status write_output(const std::string& path, const std::string& text);
 

@@ -10,14 +10,18 @@ namespace {
 
 const char* severity_name(Severity severity) {
     switch (severity) {
-    case Severity::Note: return "note";
-    case Severity::Warning: return "warning";
-    case Severity::Error: return "error";
+    case Severity::Note:
+        return "note";
+    case Severity::Warning:
+        return "warning";
+    case Severity::Error:
+        return "error";
     }
     return "error";
 }
 
-std::string describe(Severity severity, int code, std::string_view input, std::string_view place, std::string_view message) {
+std::string describe(Severity severity, int code, std::string_view input, std::string_view place,
+                     std::string_view message) {
     std::string text = fmt::format("{} {}: ", severity_name(severity), code_name(severity, code));
     if (!input.empty()) text += fmt::format("{}: ", input);
     if (!place.empty() && place != input) text += fmt::format("{}: ", place);

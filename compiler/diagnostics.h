@@ -6,6 +6,13 @@
 
 namespace fetexc::diag {
 
+// Scene (owner: compiler/scene)
+inline constexpr int kSceneExtentInvalid = 3001;     ///< canvas size not finite, not positive, or beyond double precision
+inline constexpr int kSceneCoordinateInvalid = 3002; ///< a coordinate of a path is NaN or infinite, or a degree is not 1…3
+inline constexpr int kSceneReferenceInvalid = 3003;  ///< the compositing tree is inconsistent: index out of range, cycle, bad nesting
+inline constexpr int kSceneTooLarge = 3004;          ///< beyond a limit of the scene: segments, nesting depth, nested masks
+inline constexpr int kScenePaintInvalid = 3005;      ///< a paint holds a non-finite number or a bitmap of the wrong length
+
 // Geometry and planar map (owner: compiler/geometry, compiler/planar)
 inline constexpr int kPlanarInconsistent = 4001;   ///< an internal invariant of the planar map failed; nothing is written
 inline constexpr int kTooManyIntersections = 4002; ///< limit on arrangement size exceeded
@@ -27,5 +34,11 @@ inline constexpr int kSameOutputTwice = 8015;     ///< two inputs would be writt
 inline constexpr int kDepfileName = 8021;         ///< a file name that a dependency file can't hold
 inline constexpr int kCannotEncodePicture = 8031; ///< the picture can't be encoded
 inline constexpr int kBadUsage = 8041;            ///< unknown option, bad value or combination
+inline constexpr int kOutOfMemory = 8051;         ///< the machine has no more memory
+inline constexpr int kInternal = 8052;            ///< an error of the program itself
+
+// Container, seen from the command line; the findings themselves are F numbers (formats/findings.h)
+inline constexpr int kInvalidFetex = 6001;          ///< the .fetex file breaks a rule of SPEC.md
+inline constexpr int kNoSuchRepresentation = 6002;  ///< the file is fine but holds no FBT
 
 } // namespace fetexc::diag

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `fetexc compile`: vector art in, .fetex out.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/depfile.h"
+#include "cli/io.h"
+#include "cli/load_scene.h"
+#include "cli/messages.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "cli/version.h"
+#include "formats/fetex_file.h"
+
+namespace fetexc::cli {
+namespace {
+
+constexpr std::uint32_t kDefaultTexels = 128; ///< longer side, when --size isn't given
+
+struct CompileCommandOptions {
+    std::vector<std::string> inputs;
+    std::string output, depfile, report;
+    std::string representation = "fbt";
+    SizeValue size{0, 0, kDefaultTexels};
+    SceneOptions scene;
+    unsigned threads = 0;
+    bool quiet = false;
+};
+
+GridSize grid_of(const SizeValue& size, const Extent& extent) {
+    return size.longer != 0 ? grid_for(extent, size.longer) : GridSize{size.width, size.height};
+}
+
+/// What the file says about its own making. Nothing that differs between two runs or two folders.
+fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOptions& options,
+                             const fetex::FbtTexture& fbt) {
+    std::string made_with = fmt::format("repr=fbt size={}x{}", fbt.width, fbt.height);
+    if (options.scene.raster_size != 0) made_with += fmt::format(" raster-size={}", options.scene.raster_size);
+    return {{"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
+}
+
+void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& input, bool quiet) {
+    for (const Diagnostic& diagnostic : diagnostics) {
+        if (!quiet || diagnostic.severity == Severity::Error) print_message(describe(diagnostic, input));
+    }
+}
+
+Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    ProgressLine progress(job.input, options.quiet);
+    const std::uint32_t texels = std::max({options.size.longer, options.size.width, options.size.height});
+    auto loaded = load_scene(job.input, options.scene, texels);
+    if (!loaded) return loaded.error();
+    const Scene& scene = loaded.value().scene;
+    auto built = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads}, progress.sink());
+    if (!built) return built.error();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+
+    fetex::FetexFile file;
+    file.fbt = std::move(built.value().texture);
+    file.metadata = metadata_for(loaded.value(), options, *file.fbt);
+    const std::vector<std::uint8_t> bytes = fetex::write_file(file);
+    if (const Status status = write_output(job.output, bytes); !status) return status.error();
+
+    CompileOutcome outcome{job.input,
+                           job.output,
+                           file.fbt->width,
+                           file.fbt->height,
+                           file.fbt->apron,
+                           bytes.size(),
+                           0,
+                           file.fbt->traits,
+                           std::move(built.value().report),
+                           elapsed.count()};
+    outcome.gpu_bytes = 4 * (file.fbt->texels.size() + file.fbt->records.size());
+    std::vector<Diagnostic>& all = outcome.report.diagnostics;
+    all.insert(all.begin(), loaded.value().diagnostics.begin(), loaded.value().diagnostics.end());
+    return outcome;
+}
+
+Status write_depfile(const CompileCommandOptions& options, const std::vector<CompileOutcome>& outcomes) {
+    std::vector<DepfileRule> rules;
+    for (const CompileOutcome& outcome : outcomes) {
+        DepfileRule rule{outcome.output, {}};
+        if (outcome.input != "-") rule.inputs.push_back(outcome.input);
+        rule.inputs.insert(rule.inputs.end(), options.scene.fonts.begin(), options.scene.fonts.end());
+        rules.push_back(std::move(rule));
+    }
+    const auto text = depfile_text(rules);
+    if (!text) return text.error();
+    return write_output(options.depfile, text.value());
+}
+
+/// On stdout, unless the texture goes there.
+void print_report(const CompileCommandOptions& options, const std::vector<CompileOutcome>& outcomes) {
+    const bool stdout_taken =
+        std::any_of(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.output == "-"; });
+    std::FILE* stream = stdout_taken ? stderr : stdout;
+    if (options.report == "json") fmt::print(stream, "{}", report_json(outcomes));
+    if (options.report == "text") {
+        for (const CompileOutcome& outcome : outcomes)
+            fmt::print(stream, "{}", report_text(outcome));
+    }
+}
+
+Result<Plan> prepare(const CompileCommandOptions& options) {
+    auto plan = plan_outputs(options.inputs, options.output);
+    if (!plan) return plan;
+    if (!options.depfile.empty()) {
+        if (const Status status = check_depfile(options.depfile, plan.value().jobs); !status) return status.error();
+    }
+    if (!plan.value().folder.empty()) {
+        if (const Status status = make_folder(plan.value().folder); !status) return status.error();
+    }
+    return plan;
+}
+
+/// Every input is tried; the exit code is that of the first failure. The dependency file is written only when all
+/// succeeded, as a build tool expects.
+int run_compile(const CompileCommandOptions& options) {
+    const auto plan = prepare(options);
+    if (!plan) return report_error(plan.error());
+    int exit = kExitOk;
+    std::vector<CompileOutcome> outcomes;
+    for (const Job& job : plan.value().jobs) {
+        auto outcome = compile_job(job, options);
+        if (outcome) {
+            print_diagnostics(outcome.value().report.diagnostics, job.input, options.quiet);
+            outcomes.push_back(std::move(outcome).value());
+        } else {
+            const int code = report_error(outcome.error(), job.input);
+            if (exit == kExitOk) exit = code;
+        }
+    }
+    print_report(options, outcomes);
+    if (exit == kExitOk && !options.depfile.empty()) {
+        if (const Status status = write_depfile(options, outcomes); !status) return report_error(status.error());
+    }
+    return exit;
+}
+
+void add_scene_options(CLI::App& app, SceneOptions& scene) {
+    app.add_option("--font", scene.fonts, "Font file for text; may be given several times")
+        ->type_name("FILE")
+        ->take_all();
+    app.add_flag("--system-fonts", scene.system_fonts,
+                 "Also use the fonts installed here (the bytes then depend on this machine)");
+    app.add_option(
+           "--raster-size", scene.raster_size,
+           "Pixels on the longer side for what can't be vector (filters, patterns, bitmaps); default: from --size")
+        ->check(CLI::Range(1u, kMaxSide))
+        ->type_name("N");
+}
+
+} // namespace
+
+Command add_compile_command(CLI::App& parent) {
+    const auto options = std::make_shared<CompileCommandOptions>();
+    CLI::App* app = parent.add_subcommand("compile", "Turn SVG files into .fetex textures");
+    app->add_option("inputs", options->inputs, "SVG or SVGZ files, or - for stdin")->required()->type_name("FILE");
+    app->add_option("-o,--output", options->output,
+                    "File for one input, folder for several, - for stdout; default: beside each input")
+        ->type_name("PATH");
+    app->add_option("--repr", options->representation, "Representation: fbt (default)")
+        ->check(CLI::IsMember({"fbt"}))
+        ->type_name("NAME");
+    add_size_option(*app, options->size, "Texels: both sides, or the longer one (default 128)");
+    app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+    app->add_option("--report", options->report,
+                    "Say what was made and what was skipped: text, or json (cli/schema/compile_report.schema.json)")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->type_name("FORMAT");
+    app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
+    add_scene_options(*app, options->scene);
+    add_quiet_option(*app, options->quiet);
+    return {app, [options] { return run_compile(*options); }};
+}
+
+} // namespace fetexc::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/fetex_input.h"
+
+#include <fmt/format.h>
+
+#include "cli/io.h"
+#include "compiler/diagnostics.h"
+
+namespace fetexc::cli {
+
+Result<std::vector<std::uint8_t>> read_fetex_bytes(const std::string& path) { return read_input(path, kMaxFetexBytes); }
+
+std::string describe(const fetex::Finding& finding) {
+    return fmt::format("{} at byte {}: {}", fetex::finding_id(finding.code), finding.offset, finding.message);
+}
+
+Result<FetexInput> load_fetex(const std::string& path) {
+    const auto bytes = read_fetex_bytes(path);
+    if (!bytes) return bytes.error();
+    FetexInput input;
+    input.bytes = bytes.value().size();
+    if (const auto finding = fetex::read_file(input.file, bytes.value()))
+        return Error{ErrorClass::InvalidInput, diag::kInvalidFetex, describe(*finding), path};
+    return input;
+}
+
+} // namespace fetexc::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Reading .fetex files for the subcommands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/result.h"
+#include "formats/fetex_file.h"
+
+namespace fetexc::cli {
+
+inline constexpr std::uint64_t kMaxFetexBytes = std::uint64_t{1} << 31; ///< longer files are refused unread
+
+Result<std::vector<std::uint8_t>> read_fetex_bytes(const std::string& path);
+
+/// Read and checked. Errors: those of read_input; E6001 with the first finding when the file is invalid.
+struct FetexInput {
+    fetex::FetexFile file;
+    std::uint64_t bytes = 0;
+};
+Result<FetexInput> load_fetex(const std::string& path);
+
+/// "F0101 at byte 12: reason"
+std::string describe(const fetex::Finding& finding);
+
+} // namespace fetexc::cli

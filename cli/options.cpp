@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fetexc::cli {
+namespace {
+
+/// How far from the texture a view may lie: far enough to look at the border, near enough for exact texel arithmetic.
+constexpr double kViewMin = -16, kViewMax = 17;
+
+std::optional<std::uint32_t> parse_side(std::string_view text) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > kMaxSide) return std::nullopt;
+    return value;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+} // namespace
+
+std::optional<SizeValue> parse_size(const std::string& text) {
+    const std::string_view view = text;
+    const std::size_t cross = view.find('x');
+    if (cross == std::string_view::npos) {
+        const auto longer = parse_side(view);
+        if (!longer) return std::nullopt;
+        return SizeValue{0, 0, *longer};
+    }
+    const auto width = parse_side(view.substr(0, cross)), height = parse_side(view.substr(cross + 1));
+    if (!width || !height) return std::nullopt;
+    return SizeValue{*width, *height, 0};
+}
+
+std::optional<ViewValue> parse_view(const std::string& text) {
+    std::vector<double> numbers;
+    std::string_view rest = text;
+    for (;;) {
+        const std::size_t comma = rest.find(',');
+        const auto number = parse_number(rest.substr(0, comma));
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    if (numbers.size() != 4) return std::nullopt;
+    const ViewValue view{numbers[0], numbers[1], numbers[2], numbers[3]};
+    const bool inside =
+        std::min(view.x, view.y) >= kViewMin && view.x + view.w <= kViewMax && view.y + view.h <= kViewMax;
+    if (!(view.w > 0) || !(view.h > 0) || !inside) return std::nullopt;
+    return view;
+}
+
+PixelSize resolve_size(const SizeValue& size, double aspect) {
+    if (size.longer == 0) return {size.width, size.height};
+    const auto shorter = [&](double ratio) {
+        return static_cast<std::uint32_t>(
+            std::clamp(std::round(size.longer * ratio), 1.0, static_cast<double>(kMaxSide)));
+    };
+    if (aspect >= 1) return {size.longer, shorter(1 / aspect)};
+    return {shorter(aspect), size.longer};
+}
+
+void add_size_option(CLI::App& app, SizeValue& value, const std::string& help) {
+    app.add_option_function<std::string>(
+           "--size",
+           [&value](const std::string& text) {
+               const auto size = parse_size(text);
+               if (!size)
+                   throw CLI::ValidationError(
+                       "--size", fmt::format("'{}' is neither N nor WxH with sides 1 to {}", text, kMaxSide));
+               value = *size;
+           },
+           help)
+        ->type_name("WxH|N");
+}
+
+void add_view_option(CLI::App& app, ViewValue& value) {
+    app.add_option_function<std::string>(
+           "--view",
+           [&value](const std::string& text) {
+               const auto view = parse_view(text);
+               if (!view)
+                   throw CLI::ValidationError("--view",
+                                              fmt::format("'{}' is not x,y,w,h with w and h above 0, within {} and {}",
+                                                          text, kViewMin, kViewMax));
+               value = *view;
+           },
+           "Part to draw, in texture space: x right, y down, the whole texture is 0,0,1,1 (default)")
+        ->type_name("X,Y,W,H");
+}
+
+void add_quiet_option(CLI::App& app, bool& quiet) {
+    app.add_flag("-q,--quiet", quiet, "Print no warnings, notes or progress; errors still");
+}
+
+} // namespace fetexc::cli

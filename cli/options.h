@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Options that several subcommands share, and how their values are read.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace fetexc::cli {
+
+/// "WxH" gives both sides; "N" the longer one, the other follows from an aspect ratio.
+struct SizeValue {
+    std::uint32_t width = 0, height = 0; ///< both 0 when longer is set
+    std::uint32_t longer = 0;
+};
+struct PixelSize {
+    std::uint32_t width = 0, height = 0;
+};
+
+/// A part of the texture in texture space: x right, y down, the whole is (0, 0, 1, 1).
+struct ViewValue {
+    double x = 0, y = 0, w = 1, h = 1;
+};
+
+inline constexpr std::uint32_t kMaxSide = 16384; ///< texels or pixels
+
+std::optional<SizeValue> parse_size(const std::string& text);
+/// w, h > 0; all four finite and within [-16, 17] (outside the texture its edge is repeated).
+std::optional<ViewValue> parse_view(const std::string& text);
+
+/// The longer side is size.longer, the other by aspect = width/height, rounded, at least 1.
+PixelSize resolve_size(const SizeValue& size, double aspect);
+
+/// Adds options to a subcommand; the value must outlive the parsing.
+void add_size_option(CLI::App& app, SizeValue& value, const std::string& help);
+void add_view_option(CLI::App& app, ViewValue& value);
+void add_quiet_option(CLI::App& app, bool& quiet);
+
+/// A subcommand: what was added to the command line, and what runs when it was chosen. run returns the exit code.
+struct Command {
+    CLI::App* app = nullptr;
+    std::function<int()> run;
+};
+
+Command add_compile_command(CLI::App& parent);
+Command add_render_command(CLI::App& parent);
+Command add_info_command(CLI::App& parent);
+Command add_validate_command(CLI::App& parent);
+
+} // namespace fetexc::cli

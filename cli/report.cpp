@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/messages.h"
+#include "cli/version.h"
+#include "formats/fetex_file.h"
+
+namespace fetexc::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double share(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string scene_text(const SceneStats& s) {
+    const std::uint64_t culled = s.layers_empty + s.layers_outside + s.layers_hidden + s.layers_transparent;
+    std::string text =
+        fmt::format("  layers     {} in, {} culled: {} empty, {} outside, {} hidden, {} transparent\n", s.layers_in,
+                    culled, s.layers_empty, s.layers_outside, s.layers_hidden, s.layers_transparent);
+    if (s.raster_layers > 0) text += fmt::format("             {} as raster layers\n", s.raster_layers);
+    text += fmt::format("  geometry   {} segments, {} null ones dropped; {} of {} vertices merged; moved at most "
+                        "{:.2f} steps of 2^-26\n",
+                        s.segments_in, s.segments_zero, s.vertices_merged, s.vertices_in, s.max_displacement);
+    return text;
+}
+
+std::string planar_text(const PlanarStats& p) {
+    std::string text = fmt::format("  texels     {:.1f}% empty, {:.1f}% simple, {:.1f}% arranged (of {})\n",
+                                   share(p.texels_empty, p.texels), share(p.texels_simple, p.texels),
+                                   share(p.texels_arranged, p.texels), p.texels);
+    text += fmt::format("  pieces     {} of {} segments; {} null, {} reduced in degree, {} on a shared support\n",
+                        p.pieces, p.segments, p.segments_null, p.degree_reduced, p.pieces_shared);
+    text += fmt::format("  pairs      {} near each other: {} settled by the filter, {} by exact arithmetic; {} "
+                        "overlaps; {} exact comparisons\n",
+                        p.box_pairs, p.pairs_certified, p.pairs_exact, p.overlaps, p.exact_comparisons);
+    text +=
+        fmt::format("  planar map {} crossings, {} grid crossings, {} vertices, {} edges, {} trapezoids, {} regions\n",
+                    p.crossings, p.grid_crossings, p.vertices, p.edges, p.trapezoids, p.regions);
+    text += fmt::format("  edges      {} visible, {} invisible ones dropped\n", p.edges_visible, p.edges_invisible);
+    return text;
+}
+
+std::string fbt_text(const FbtStats& f) {
+    std::string text = fmt::format("  regions    {}; texels with one {}, two {}, more {}\n", f.regions, f.texels_empty,
+                                   f.texels_two_regions, f.texels_more_regions);
+    text += fmt::format("  bands      {} in {} texels; avoided in {}\n", f.bands, f.texels_banded, f.bands_avoided);
+    text += fmt::format("  features   {} of {} pieces; {} regions interpolated, {} constant\n", f.features, f.pieces,
+                        f.regions_interpolated, f.regions - std::min(f.regions, f.regions_interpolated));
+    if (f.slivers_collapsed > 0)
+        text += fmt::format("  slivers    {} thinner than the output grid collapsed\n", f.slivers_collapsed);
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    if (words.empty()) return "nothing";
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Json scene_json(const SceneStats& s) {
+    return {{"layersIn", s.layers_in},
+            {"layersCulled",
+             {{"empty", s.layers_empty},
+              {"outside", s.layers_outside},
+              {"hidden", s.layers_hidden},
+              {"transparent", s.layers_transparent}}},
+            {"rasterLayers", s.raster_layers},
+            {"segmentsIn", s.segments_in},
+            {"segmentsNull", s.segments_zero},
+            {"verticesIn", s.vertices_in},
+            {"verticesMerged", s.vertices_merged},
+            {"maxDisplacementSteps", s.max_displacement}};
+}
+
+Json planar_json(const PlanarStats& p) {
+    return {
+        {"segments", p.segments},
+        {"segmentsNull", p.segments_null},
+        {"degreeReduced", p.degree_reduced},
+        {"pieces", p.pieces},
+        {"piecesShared", p.pieces_shared},
+        {"pairs",
+         {{"near", p.box_pairs}, {"certified", p.pairs_certified}, {"exact", p.pairs_exact}, {"overlaps", p.overlaps}}},
+        {"exactComparisons", p.exact_comparisons},
+        {"vertices", p.vertices},
+        {"edges", p.edges},
+        {"crossings", p.crossings},
+        {"gridCrossings", p.grid_crossings},
+        {"texels",
+         {{"total", p.texels},
+          {"empty", p.texels_empty},
+          {"simple", p.texels_simple},
+          {"arranged", p.texels_arranged}}},
+        {"trapezoids", p.trapezoids},
+        {"regions", p.regions},
+        {"edgesVisible", p.edges_visible},
+        {"edgesInvisible", p.edges_invisible}};
+}
+
+Json fbt_json(const FbtStats& f) {
+    return {{"texelsOneRegion", f.texels_empty},
+            {"texelsTwoRegions", f.texels_two_regions},
+            {"texelsMoreRegions", f.texels_more_regions},
+            {"texelsBanded", f.texels_banded},
+            {"bands", f.bands},
+            {"bandsAvoided", f.bands_avoided},
+            {"features", f.features},
+            {"pieces", f.pieces},
+            {"regions", f.regions},
+            {"regionsInterpolated", f.regions_interpolated},
+            {"sliversCollapsed", f.slivers_collapsed}};
+}
+
+Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
+    Json list = Json::array();
+    for (const Diagnostic& d : diagnostics) {
+        list.push_back({{"code", code_name(d.severity, d.code)},
+                        {"place", fetex::to_valid_utf8(d.place)},
+                        {"message", fetex::to_valid_utf8(d.message)}});
+    }
+    return list;
+}
+
+Json outcome_json(const CompileOutcome& o) {
+    return {{"input", fetex::to_valid_utf8(o.input)},
+            {"output", fetex::to_valid_utf8(o.output)},
+            {"representation", "fbt"},
+            {"width", o.width},
+            {"height", o.height},
+            {"apron", o.apron},
+            {"fileBytes", o.file_bytes},
+            {"gpuBytes", o.gpu_bytes},
+            {"milliseconds", o.milliseconds},
+            {"scene", scene_json(o.report.scene)},
+            {"planar", planar_json(o.report.planar)},
+            {"fbt", fbt_json(o.report.fbt)},
+            {"shaderPartsLeftOut", shader_parts_left_out(o.traits)},
+            {"diagnostics", diagnostics_json(o.report.diagnostics)}};
+}
+
+} // namespace
+
+std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
+    std::vector<std::string> parts;
+    const auto leave_out = [&](bool needed, const char* name) {
+        if (!needed) parts.emplace_back(name);
+    };
+    leave_out((traits.degrees & 2) != 0, "lines");
+    leave_out((traits.degrees & 4) != 0, "quadratics");
+    leave_out((traits.degrees & 8) != 0, "cubics");
+    leave_out(traits.bands, "bands");
+    leave_out(traits.interpolated, "interpolation");
+    leave_out(traits.translucent, "translucency");
+    leave_out((traits.directions & 1) != 0, "rays +x");
+    leave_out((traits.directions & 2) != 0, "rays -x");
+    leave_out((traits.directions & 4) != 0, "rays +y");
+    leave_out((traits.directions & 8) != 0, "rays -y");
+    return parts;
+}
+
+std::string report_text(const CompileOutcome& o) {
+    const double texels = static_cast<double>(o.width) * o.height;
+    std::string text = fmt::format("{} -> {}\n", printable(o.input), printable(o.output));
+    text +=
+        fmt::format("  texture    {} x {} texels{}; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n",
+                    o.width, o.height, o.apron ? " and an apron of samples" : "", o.gpu_bytes,
+                    static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
+    text += scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt);
+    text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
+    return text;
+}
+
+std::string report_json(const std::vector<CompileOutcome>& outcomes) {
+    Json results = Json::array();
+    for (const CompileOutcome& outcome : outcomes)
+        results.push_back(outcome_json(outcome));
+    const Json document = {{"schema", "fetexc-compile-report/1"}, {"version", version_number()}, {"results", results}};
+    return document.dump(2) + "\n";
+}
+
+} // namespace fetexc::cli
