@@ -6,19 +6,17 @@
 #include <vector>
 
 #include "compiler/result.h"
+#include "runtime_glsl/host/image.h"
 
 namespace fetexc::cli {
 
-/// Row-major, top row first, premultiplied sRGB RGBA8.
-struct Picture {
-    std::uint32_t width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;
-};
+/// Straight-alpha RGBA8, as PNG stores it: colours divided by alpha and rounded once, transparent pixels 0.
+std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image);
 
-/// Divides the colours by alpha (rounded to nearest, clamped; transparent pixels become 0): what PNG stores.
-void unpremultiply(Picture& picture);
+/// The bytes of a PNG file, sRGB, straight alpha. Error E8031.
+Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image);
 
-/// The bytes of a PNG file with straight alpha. Error E8031.
-Result<std::vector<std::uint8_t>> encode_png(Picture picture);
+/// Two pictures of equal height, side by side, `gap` pixels of a dark line between.
+fetex::Image side_by_side(const fetex::Image& left, const fetex::Image& right, std::uint32_t gap);
 
 } // namespace fetexc::cli

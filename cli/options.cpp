@@ -7,11 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "runtime_glsl/host/image.h"
+
 namespace fetexc::cli {
 namespace {
-
-/// How far from the texture a view may lie: far enough to look at the border, near enough for exact texel arithmetic.
-constexpr double kViewMin = -16, kViewMax = 17;
 
 std::optional<std::uint32_t> parse_side(std::string_view text) {
     std::uint32_t value = 0;
@@ -55,9 +54,8 @@ std::optional<ViewValue> parse_view(const std::string& text) {
     }
     if (numbers.size() != 4) return std::nullopt;
     const ViewValue view{numbers[0], numbers[1], numbers[2], numbers[3]};
-    const bool inside =
-        std::min(view.x, view.y) >= kViewMin && view.x + view.w <= kViewMax && view.y + view.h <= kViewMax;
-    if (!(view.w > 0) || !(view.h > 0) || !inside) return std::nullopt;
+    const double farthest = std::max({std::abs(view.x), std::abs(view.y), view.w, view.h});
+    if (!(view.w > 0) || !(view.h > 0) || farthest > fetex::kMaxView) return std::nullopt;
     return view;
 }
 
@@ -91,9 +89,7 @@ void add_view_option(CLI::App& app, ViewValue& value) {
            [&value](const std::string& text) {
                const auto view = parse_view(text);
                if (!view)
-                   throw CLI::ValidationError("--view",
-                                              fmt::format("'{}' is not x,y,w,h with w and h above 0, within {} and {}",
-                                                          text, kViewMin, kViewMax));
+                   throw CLI::ValidationError("--view", fmt::format("'{}' is not x,y,w,h with w and h above 0", text));
                value = *view;
            },
            "Part to draw, in texture space: x right, y down, the whole texture is 0,0,1,1 (default)")

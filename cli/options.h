@@ -29,7 +29,7 @@ struct ViewValue {
 inline constexpr std::uint32_t kMaxSide = 16384; ///< texels or pixels
 
 std::optional<SizeValue> parse_size(const std::string& text);
-/// w, h > 0; all four finite and within [-16, 17] (outside the texture its edge is repeated).
+/// w, h > 0; all four finite and of magnitude at most fetex::kMaxView (outside the texture its edge is repeated).
 std::optional<ViewValue> parse_view(const std::string& text);
 
 /// The longer side is size.longer, the other by aspect = width/height, rounded, at least 1.

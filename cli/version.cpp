@@ -8,11 +8,20 @@
 #include <fmt/format.h>
 
 #include "cli/build_info.h"
+#include "runtime_glsl/host/renderer.h"
 
 namespace fetexc::cli {
 namespace {
 
-std::string back_ends_text() { return "cpu"; }
+std::string back_ends_text() {
+    std::string text = "back ends:\n  cpu              always";
+    for (const fetex::Backend backend : fetex::kBackends) {
+        const fetex::BackendStatus status = fetex::probe_backend(backend);
+        text += fmt::format("\n  {:<16} {}{}", fetex::backend_name(backend),
+                            status.available ? "" : "not here: ", status.detail);
+    }
+    return text;
+}
 
 } // namespace
 
@@ -24,7 +33,7 @@ std::string version_text() {
         fmt::format("fetexc {}{}\n", version_number(), commit.empty() ? "" : fmt::format(" (commit {})", commit));
     text += fmt::format("built with {}, {}; CGAL {}, OpenImageIO {}\n", FETEXC_COMPILER, FETEXC_BUILD_TYPE,
                         CGAL_VERSION_STR, OIIO_VERSION_STRING);
-    return text + fmt::format("back ends: {}", back_ends_text());
+    return text + back_ends_text();
 }
 
 } // namespace fetexc::cli

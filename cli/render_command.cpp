@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `fetexc render`: a .fetex file drawn into a PNG.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/canvas.h"
+#include "cli/fetex_input.h"
+#include "cli/image_file.h"
+#include "cli/io.h"
+#include "cli/messages.h"
+#include "cli/options.h"
+#include "compiler/diagnostics.h"
+
+namespace fetexc::cli {
+namespace {
+
+constexpr std::uint32_t kDefaultPixels = 1024, kDefaultSupersample = 4;
+
+struct RenderOptions {
+    std::string input, output, beside;
+    std::string backend = "cpu";
+    std::string representation = "fbt";
+    ViewValue view;
+    SizeValue size{0, 0, kDefaultPixels};
+    std::uint32_t supersample = kDefaultSupersample;
+    bool quiet = false;
+};
+
+fetex::RenderSize pixels_for(const RenderOptions& options, const fetex::FbtTexture& texture) {
+    const double aspect = options.view.w * texture.width / (options.view.h * texture.height);
+    const PixelSize size = resolve_size(options.size, aspect);
+    return {size.width, size.height, options.supersample};
+}
+
+/// Draws the ordinary texture that the same bytes buy, to the right of the picture.
+Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, const fetex::FbtTexture& texture,
+                                  const fetex::View& view, const fetex::RenderSize& size, const fetex::Image& left) {
+    const std::uint64_t bytes = 4 * (texture.texels.size() + texture.records.size());
+    const auto bitmap = bitmap_of_equal_bytes(texture, bytes);
+    if (!bitmap) return bitmap.error();
+    const auto right = canvas.draw(bitmap.value(), view, size);
+    if (!right) return right;
+    if (!options.quiet) {
+        print_message(fmt::format(
+            "note: left, {} x {} texels of features in {} bytes; right, an ordinary {} x {} texture in {} bytes",
+            texture.width, texture.height, bytes, bitmap.value().width, bitmap.value().height,
+            bitmap.value().rgba.size()));
+    }
+    return side_by_side(left, right.value(), std::max(2u, size.width / 128));
+}
+
+Result<fetex::Image> draw(const RenderOptions& options, const fetex::FbtTexture& texture) {
+    auto canvas = Canvas::open(options.backend);
+    if (!canvas) return canvas.error();
+    const fetex::View view{options.view.x, options.view.y, options.view.w, options.view.h};
+    const fetex::RenderSize size = pixels_for(options, texture);
+    auto image = canvas.value().draw(texture, view, size);
+    if (!image || options.beside.empty()) return image;
+    return add_bilinear(options, canvas.value(), texture, view, size, image.value());
+}
+
+int run_render(const RenderOptions& options) {
+    if (same_file(options.input, options.output))
+        return report_error(
+            {ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite the input", options.output});
+    const auto input = load_fetex(options.input);
+    if (!input) return report_error(input.error());
+    if (!input.value().file.fbt)
+        return report_error({ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no FBT", options.input});
+    const auto image = draw(options, *input.value().file.fbt);
+    if (!image) return report_error(image.error(), options.input);
+    const auto png = encode_png(image.value());
+    if (!png) return report_error(png.error(), options.output);
+    if (const Status status = write_output(options.output, png.value()); !status) return report_error(status.error());
+    return kExitOk;
+}
+
+} // namespace
+
+Command add_render_command(CLI::App& parent) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* app = parent.add_subcommand("render", "Draw a .fetex texture, or a part of it, into a PNG");
+    app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
+    app->add_option("-o,--output", options->output, "The PNG to write, or - for stdout")->required()->type_name("FILE");
+    app->add_option("--repr", options->representation, "Representation to draw: fbt (default)")
+        ->check(CLI::IsMember({"fbt"}))
+        ->type_name("NAME");
+    add_view_option(*app, options->view);
+    add_size_option(*app, options->size, "Pixels: both sides, or the longer one (default 1024)");
+    app->add_option("--backend", options->backend,
+                    "What draws: cpu (default), osmesa, egl (surfaceless, else device) or glfw (needs a display)")
+        ->check(CLI::IsMember(canvas_names()))
+        ->type_name("NAME");
+    app->add_option("--supersample", options->supersample, "N x N samples a pixel, 1 to 16 (default 4)")
+        ->check(CLI::Range(1u, fetex::kMaxSupersample))
+        ->type_name("N");
+    app->add_option("--beside", options->beside,
+                    "bilinear: draw to the right what an ordinary texture of the same bytes shows")
+        ->check(CLI::IsMember({"bilinear"}))
+        ->type_name("WHAT");
+    add_quiet_option(*app, options->quiet);
+    return {app, [options] { return run_render(*options); }};
+}
+
+} // namespace fetexc::cli
