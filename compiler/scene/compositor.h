@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// From "which shapes is this point inside" to a visible result. Shared by the planar map (per region) and the ground truth.
+/// From "which shapes is this point inside" to a visible result. Shared by the planar map (per region) and the ground
+/// truth.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 
 namespace fetexc {
 
-/// Identity of a visible result: two regions with equal ids look the same everywhere (same solid colour after rounding to
-/// RGBA8, or the same reduced paint stack), so an edge between them is invisible. Ids are valid within one Compositor
-/// and their order means nothing (they depend on the order of calls).
+/// Identity of a visible result: two regions with equal ids look the same everywhere (same solid colour after rounding
+/// to RGBA8, or the same reduced paint stack), so an edge between them is invisible. Ids are valid within one
+/// Compositor and their order means nothing (they depend on the order of calls).
 using ResultId = std::uint32_t;
 
 /// Thread-safe.

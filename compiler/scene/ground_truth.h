@@ -12,7 +12,8 @@
 namespace fetexc {
 
 /// Point queries on the scene itself. Points are in lattice space (doubles, so any sub-step position).
-/// Each query tests every curve whose y-range holds the point (a y-bucket index is the only acceleration).
+/// The scene must outlive this. Const members are thread-safe. Each query tests every curve whose y-range holds the
+/// point (a y-bucket index is the only acceleration).
 class GroundTruth {
   public:
     explicit GroundTruth(const Scene& scene);
@@ -24,8 +25,11 @@ class GroundTruth {
     [[nodiscard]] ResultId result_at(Compositor& compositor, double x, double y) const;
     /// Premultiplied sRGB.
     [[nodiscard]] Rgba color_at(double x, double y) const;
-    /// Euclidean distance, in lattice steps, to the nearest curve of any shape (visible or not).
+    /// Euclidean distance, in lattice steps, to the nearest curve of any shape (visible or not), accurate to
+    /// budget::kDistanceAccuracy. Infinity when the scene has no curve.
     [[nodiscard]] double distance_to_curves(double x, double y) const;
+    /// The same if it is below `radius` (lattice steps), else infinity. Much faster for a small radius.
+    [[nodiscard]] double distance_to_curves_within(double x, double y, double radius) const;
 
   private:
     struct Impl;

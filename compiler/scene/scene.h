@@ -4,8 +4,8 @@
 /// Frames
 /// - canvas space: user units, x right, y down, the picture is [0,width]×[0,height]. Paints live here.
 /// - lattice space: integers; the canvas is [0,lattice_w]×[0,lattice_h], the larger of the two is 2^26.
-///   canvas = lattice · (width/lattice_w, height/lattice_h). All geometry lives here, already snapped and merged, so that
-///   ground truth and planar map see the same curves. Coordinates stay within kLatticeLimit in absolute value.
+///   canvas = lattice · (width/lattice_w, height/lattice_h). All geometry lives here, already snapped and merged, so
+///   that ground truth and planar map see the same curves. Coordinates stay within kLatticeLimit in absolute value.
 #pragma once
 
 #include <array>
@@ -98,8 +98,22 @@ using Paint = std::variant<SolidPaint, LinearPaint, RadialPaint, RasterPaint>;
 
 /// Order of W3C Compositing 1.
 enum class Blend : std::uint8_t {
-    Normal, Multiply, Screen, Overlay, Darken, Lighten, ColorDodge, ColorBurn, HardLight, SoftLight, Difference,
-    Exclusion, Hue, Saturation, Color, Luminosity,
+    Normal,
+    Multiply,
+    Screen,
+    Overlay,
+    Darken,
+    Lighten,
+    ColorDodge,
+    ColorBurn,
+    HardLight,
+    SoftLight,
+    Difference,
+    Exclusion,
+    Hue,
+    Saturation,
+    Color,
+    Luminosity,
 };
 
 /// Inside iff any member is inside and the parent clip (if any) is inside. No members: nothing is inside.
@@ -119,7 +133,8 @@ struct Node {
     std::uint32_t end = 0;
     std::uint32_t clip = kNone;
     double opacity = 1;
-    // Group (always composited in isolation when opacity < 1, blend ≠ Normal, mask or isolated; else transparent to its parent)
+    // Group (always composited in isolation when opacity < 1, blend ≠ Normal, mask or isolated; else transparent to its
+    // parent)
     Blend blend = Blend::Normal;
     std::uint32_t mask = kNone;
     bool isolated = false;
@@ -131,7 +146,7 @@ struct Node {
 /// Mask content is a tree of its own in Scene::nodes: [first, end). Outside region_shape (if any) the mask is 0.
 struct Mask {
     std::uint32_t first = 0, end = 0;
-    bool luminance = true; ///< else alpha
+    bool luminance = true;   ///< else alpha
     bool linear_rgb = false; ///< color-interpolation: linearRGB, for luminance
     std::uint32_t region_shape = kNone;
     std::uint32_t parent = kNone; ///< mask on the mask element

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which fills can't be seen (DESIGN §8). Marks only; tree.h removes.
+#pragma once
+
+#include <vector>
+
+#include "compiler/scene/scene.h"
+
+namespace fetexc {
+
+/// Fills that are empty, fully transparent or outside the canvas; counted in scene.stats.
+[[nodiscard]] std::vector<bool> find_invisible_fills(Scene& scene);
+
+/// Fills of a rebuilt tree that lie under a later opaque axis-aligned rectangle at root level; counted in scene.stats.
+[[nodiscard]] std::vector<bool> find_hidden_fills(Scene& scene);
+
+} // namespace fetexc

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/scene/curve_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compiler/scene/bezier.h"
+
+namespace fetexc {
+namespace {
+
+/// Below this part length, 2^-60 of the parameter range, the end points are all there is.
+constexpr int kMaxHalvings = 60;
+
+double dot(CanvasPoint a, CanvasPoint b) { return a.x * b.x + a.y * b.y; }
+
+/// Lower bound: distance of the origin to the control points' box.
+double box_distance(const CanvasSegment& s) {
+    double x0 = s.p[0].x, x1 = x0, y0 = s.p[0].y, y1 = y0;
+    for (int i = 1; i <= s.degree; ++i) {
+        x0 = std::min(x0, s.p[i].x), x1 = std::max(x1, s.p[i].x);
+        y0 = std::min(y0, s.p[i].y), y1 = std::max(y1, s.p[i].y);
+    }
+    return std::hypot(std::max({x0, -x1, 0.0}), std::max({y0, -y1, 0.0}));
+}
+
+CanvasPoint hodograph(const CanvasSegment& s, int i) {
+    return {s.degree * (s.p[i + 1].x - s.p[i].x), s.degree * (s.p[i + 1].y - s.p[i].y)};
+}
+
+/// Bernstein coefficients of g = B·B', half the derivative of the squared distance to the origin.
+struct Slope {
+    int degree = 1;
+    std::array<double, 6> c{};
+};
+
+double binomial(int n, int k) {
+    double value = 1;
+    for (int i = 1; i <= k; ++i)
+        value = value * (n - k + i) / i;
+    return value;
+}
+
+Slope slope_of(const CanvasSegment& s) {
+    Slope g;
+    const int n = s.degree, m = n - 1;
+    g.degree = n + m;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= m; ++j)
+            g.c[i + j] += binomial(n, i) * binomial(m, j) / binomial(n + m, i + j) * dot(s.p[i], hodograph(s, j));
+    return g;
+}
+
+int sign_changes(const Slope& g) {
+    int changes = 0;
+    double last = 0;
+    for (int i = 0; i <= g.degree; ++i) {
+        if (g.c[i] == 0) continue;
+        if (last != 0 && (last < 0) != (g.c[i] < 0)) ++changes;
+        last = g.c[i];
+    }
+    return changes;
+}
+
+double slope_at(const Slope& g, double t) {
+    std::array<double, 6> v = g.c;
+    for (int level = 0; level < g.degree; ++level)
+        for (int i = 0; i + level < g.degree; ++i)
+            v[i] = (1 - t) * v[i] + t * v[i + 1];
+    return v[0];
+}
+
+/// The minimum between a falling start and a rising end, by bisection to the last bit of the parameter.
+double minimum_parameter(const Slope& g) {
+    double lo = 0, hi = 1;
+    for (;;) {
+        const double t = lo + (hi - lo) / 2;
+        if (t <= lo || t >= hi) return t;
+        (slope_at(g, t) < 0 ? lo : hi) = t;
+    }
+}
+
+double length(CanvasPoint p) { return std::hypot(p.x, p.y); }
+
+/// The segment is already translated so that the query point is the origin.
+double search(const CanvasSegment& s, double best, int halvings) {
+    if (box_distance(s) >= best) return best;
+    best = std::min({best, length(s.p[0]), length(s.p[s.degree])});
+    const Slope g = slope_of(s);
+    const int changes = sign_changes(g);
+    if (changes == 0 || halvings == kMaxHalvings) return best;
+    if (changes == 1) // a change from rising to falling is a maximum
+        return g.c[0] > 0 ? best : std::min(best, length(bezier::point_at(s, minimum_parameter(g))));
+    best = search(bezier::part(s, 0, 0.5), best, halvings + 1);
+    return search(bezier::part(s, 0.5, 1), best, halvings + 1);
+}
+
+} // namespace
+
+double distance_below(const CanvasSegment& s, double x, double y, double best) {
+    CanvasSegment local = s;
+    for (int i = 0; i <= s.degree; ++i)
+        local.p[i] = {s.p[i].x - x, s.p[i].y - y};
+    return search(local, best, 0);
+}
+
+} // namespace fetexc

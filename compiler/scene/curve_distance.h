@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "compiler/scene/scene_builder.h"
+
+namespace fetexc {
+
+/// Distance from a point to a Bezier segment, in the frame of the control points, if it is below `best`; else `best`.
+/// Every local minimum is isolated: the derivative of the squared distance is a polynomial of degree 2n−1 whose
+/// Bernstein coefficients tell how many sign changes are left; parts with more than one are halved. Accurate to
+/// budget::kDistanceAccuracy for coordinates up to 2^28.
+[[nodiscard]] double distance_below(const CanvasSegment& s, double x, double y, double best);
+
+} // namespace fetexc

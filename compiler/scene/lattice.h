@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Canvas space to lattice space (scene.h states both frames).
+#pragma once
+
+#include "compiler/result.h"
+#include "compiler/scene/scene_builder.h"
+
+namespace fetexc {
+
+/// lattice = canvas · (sx, sy); the canvas maps exactly onto [0,lattice_w]×[0,lattice_h].
+struct LatticeScale {
+    double sx = 1, sy = 1;
+};
+
+/// Larger side 2^26 steps, the other by aspect (at least 1). Error kSceneExtentInvalid unless both are finite and > 0.
+Result<Extent> make_extent(double width, double height);
+
+[[nodiscard]] LatticeScale lattice_scale(const Extent& extent);
+
+/// Canvas point of a lattice-space position.
+[[nodiscard]] CanvasPoint to_canvas(const Extent& extent, double x, double y);
+
+/// Scaled control points, still in double. A coordinate that overflows saturates at ±1e300 (the input itself is
+/// finite).
+[[nodiscard]] CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale);
+
+/// Nearest lattice point; halves round away from zero. The point must lie within ±kLatticeLimit.
+[[nodiscard]] LatticePoint snap(CanvasPoint p);
+
+} // namespace fetexc

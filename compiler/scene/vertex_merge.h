@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Merging of end points closer than budget::kMergeDistance: deterministic leader clustering over a hash grid.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/scene/scene.h"
+
+namespace fetexc {
+
+struct LatticePointHash {
+    std::size_t operator()(const LatticePoint& p) const noexcept;
+};
+
+/// Add every end point once per joint, in input order; run(); then ask for leaders. Points used by several joints
+/// become leaders before lone ones, so borders that are already shared exactly do not move.
+class VertexMerge {
+  public:
+    void add(LatticePoint p);
+    void run();
+    /// Where an added point goes: itself or the nearest leader closer than the merge distance.
+    [[nodiscard]] LatticePoint leader(LatticePoint p) const { return vertices_.at(p).leader; }
+    /// Joints that move.
+    [[nodiscard]] std::uint64_t merged() const { return merged_; }
+
+  private:
+    struct Vertex {
+        std::uint64_t uses = 0;
+        LatticePoint leader;
+    };
+    void settle(LatticePoint p);
+
+    std::unordered_map<LatticePoint, Vertex, LatticePointHash> vertices_;
+    std::vector<LatticePoint> order_; ///< distinct points in input order
+    std::unordered_map<LatticePoint, std::vector<LatticePoint>, LatticePointHash> leaders_by_cell_;
+    std::uint64_t merged_ = 0;
+};
+
+} // namespace fetexc
