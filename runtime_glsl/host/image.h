@@ -23,6 +23,7 @@ struct RenderSize {
     std::uint32_t supersample = 1;       ///< 1 … kMaxSupersample
 };
 inline constexpr std::uint32_t kMaxImageSide = 32768, kMaxSupersample = 16;
+inline constexpr std::uint64_t kMaxImagePixels = 1u << 26; ///< 1 GiB of floats
 
 /// Premultiplied sRGB RGBA, 0…1, row-major, top row first.
 struct Image {

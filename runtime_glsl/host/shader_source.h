@@ -16,19 +16,21 @@ inline constexpr Dialect kDialects[] = {Dialect::Glsl330, Dialect::Glsl430, Dial
 /// "330", "430", "300es", "vulkan450".
 const char* dialect_name(Dialect dialect);
 
-/// #version, precision, and the macros that hide the dialects' differences.
+/// #version, precision, and the macros that hide the dialects' differences. texture_buffer: records in a texture
+/// buffer; not in Essl300, which has none.
 std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 
-/// The macros that leave out of the sampler what an asset doesn't need. "" leaves everything in.
+/// The macros that leave out of the sampler what an asset doesn't need. "" instead leaves everything in.
 std::string fbt_specialisation(const FbtTraits& traits);
 
-/// Prelude, specialisation and fetex_fbt.glsl: a fragment shader may follow.
-std::string fbt_library_source(Dialect dialect, const FbtTraits& traits, bool texture_buffer = false);
+/// Prelude, specialisation and fetex_fbt.glsl, to be followed by a fragment shader. Only apron and traits of the
+/// texture are looked at.
+std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
 
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, and the bitmap
 /// through the hardware filter.
 std::string view_vertex_source(Dialect dialect);
-std::string fbt_fragment_source(Dialect dialect, const FbtTraits& traits, bool texture_buffer = false);
+std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 

@@ -1,0 +1,5 @@
+#version 330 core
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+// Desktop OpenGL 3.3 and later.
+#define FETEX_UNIFORM(n) uniform
+#define FETEX_VARYING(n)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// Programs, textures and the render target. Internal to the host library; a context is current in every function.
+#pragma once
+
+#include <string>
+
+#include "runtime_glsl/host/gl_context.h"
+#include "runtime_glsl/host/sample_grid.h"
+
+namespace fetex {
+
+/// A linked program with the uniforms of host/shaders/view.glsl. 0: not made yet.
+struct Program {
+    GLuint id = 0;
+    GLint origin = -1, step = -1, supersample = -1;
+};
+
+/// Samplers of units 0 and 1 are the named uniforms; a name the shader doesn't use may be given.
+Outcome<Program> build_program(const GladGLContext& gl, const std::string& vertex, const std::string& fragment,
+                               std::initializer_list<const char*> samplers);
+
+/// A framebuffer object with one colour texture, of kTileSide unless said otherwise.
+struct Target {
+    GLuint framebuffer = 0, texture = 0;
+};
+Outcome<Target> make_target(const GladGLContext& gl, GLenum internal_format, std::uint32_t side);
+void delete_target(const GladGLContext& gl, Target& target);
+
+/// A 2D texture, NEAREST, clamped to its edges, without data; bound to the unit.
+GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
+                    std::uint32_t height, GLenum format, GLenum type, const void* data);
+
+/// The program's grid for a tile.
+void set_grid(const GladGLContext& gl, const Program& program, const AxisGrid& x, const AxisGrid& y,
+              std::uint32_t supersample);
+
+/// The error GL has recorded, if any; empties its queue.
+RuntimeStatus gl_error(const GladGLContext& gl, const char* while_doing);
+
+} // namespace fetex

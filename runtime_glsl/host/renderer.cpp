@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+#include "runtime_glsl/host/renderer.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "runtime_glsl/host/gl_objects.h"
+
+namespace fetex {
+namespace {
+
+constexpr std::uint32_t kRecordColumns = 2048; ///< as fetex_fbt.glsl reads them
+constexpr double kBitmapShift = 0.5;           ///< texels; a bitmap's sample stands in the middle of its texel
+
+// Texture units; 2 is the render target's while it is made.
+constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kBitmapUnit = 0;
+
+double process_cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+} // namespace
+
+struct Renderer::State {
+    std::unique_ptr<GlContext> context;
+    RendererOptions options;
+    GLint max_texture_side = 0, max_buffer_texels = 0;
+    GLuint vertex_array = 0;
+    Target target;
+    Program fbt_program, bitmap_program, filtered_program;
+    GLuint texel_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0;
+    std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0;
+
+    [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
+    RuntimeStatus set_up();
+    RuntimeStatus check_limits(const FbtTexture& texture) const;
+    void delete_fbt();
+    void upload_records(const FbtTexture& texture);
+    void upload_record_buffer(const FbtTexture& texture);
+    RuntimeStatus upload_fbt(const FbtTexture& texture);
+    RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
+    void bind_fbt() const;
+    void bind_bitmap(GLint filter) const;
+    void draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
+                   std::uint32_t height, double shift, std::uint32_t first_x, std::uint32_t first_y) const;
+    Outcome<Image> render(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
+                          std::uint32_t height, double shift);
+};
+
+RuntimeStatus Renderer::State::set_up() {
+    gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_side);
+    if (!context->es) gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_buffer_texels);
+    gl().GenVertexArrays(1, &vertex_array);
+    gl().BindVertexArray(vertex_array);
+    gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl().PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl().Disable(GL_DITHER);
+    const auto made = make_target(gl(), GL_RGBA32F, kTileSide);
+    if (!made) return made.error();
+    target = made.value();
+    return gl_error(gl(), "making the render target");
+}
+
+RuntimeStatus Renderer::State::check_limits(const FbtTexture& texture) const {
+    const auto side = static_cast<std::uint32_t>(max_texture_side);
+    const std::size_t records = texture.records.size() / 4;
+    const std::size_t most =
+        options.texture_buffer ? static_cast<std::size_t>(max_buffer_texels) : std::size_t{kRecordColumns} * side;
+    if (texture.width + texture.apron <= side && texture.height + texture.apron <= side && records <= most)
+        return std::nullopt;
+    return RuntimeError{RuntimeErrc::TextureTooLarge,
+                        "this device takes textures of " + std::to_string(side) + " texels a side and " +
+                            std::to_string(most) + " records; with its apron this one has " +
+                            std::to_string(texture.width + texture.apron) + "x" +
+                            std::to_string(texture.height + texture.apron) + " and " + std::to_string(records)};
+}
+
+void Renderer::State::delete_fbt() {
+    gl().DeleteTextures(1, &texel_texture);
+    gl().DeleteTextures(1, &record_texture);
+    gl().DeleteBuffers(1, &record_buffer);
+    if (fbt_program.id != 0) gl().DeleteProgram(fbt_program.id);
+    texel_texture = record_texture = record_buffer = 0;
+    fbt_program = {};
+}
+
+/// Whole rows, then the rest of the last; a texture of one row is only as wide as it must be.
+void Renderer::State::upload_records(const FbtTexture& texture) {
+    const auto records = static_cast<std::uint32_t>(texture.records.size() / 4);
+    const std::uint32_t columns = std::clamp(records, 1u, kRecordColumns);
+    const std::uint32_t rows = records / kRecordColumns, rest = records % kRecordColumns;
+    record_texture = make_texture(gl(), kRecordUnit, GL_RGBA32UI, columns, std::max(rows + (rest != 0), 1u),
+                                  GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+    const auto put = [&](std::uint32_t row, std::uint32_t width, std::uint32_t height) {
+        gl().TexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(row), static_cast<GLsizei>(width),
+                           static_cast<GLsizei>(height), GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                           texture.records.data() + std::size_t{row} * kRecordColumns * 4);
+    };
+    if (rows > 0) put(0, kRecordColumns, rows);
+    if (rest > 0) put(rows, rest, 1);
+}
+
+void Renderer::State::upload_record_buffer(const FbtTexture& texture) {
+    gl().GenBuffers(1, &record_buffer);
+    gl().BindBuffer(GL_TEXTURE_BUFFER, record_buffer);
+    const std::size_t bytes = std::max<std::size_t>(texture.records.size() * 4, 16);
+    gl().BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STATIC_DRAW);
+    gl().BufferSubData(GL_TEXTURE_BUFFER, 0, static_cast<GLsizeiptr>(texture.records.size() * 4),
+                       texture.records.data());
+    gl().GenTextures(1, &record_texture);
+    gl().ActiveTexture(GL_TEXTURE0 + kRecordUnit);
+    gl().BindTexture(GL_TEXTURE_BUFFER, record_texture);
+    gl().TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32UI, record_buffer);
+}
+
+RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
+    if (auto bad = check_limits(texture)) return bad;
+    auto program = build_program(gl(), view_vertex_source(options.dialect),
+                                 fbt_fragment_source(options.dialect, texture, options.texture_buffer),
+                                 {"fetexFbtTexels", "fetexFbtRecords"});
+    if (!program) return program.error();
+    delete_fbt();
+    fbt_program = program.value();
+    fbt_width = texture.width;
+    fbt_height = texture.height;
+    texel_texture = make_texture(gl(), kTexelUnit, GL_RG32UI, texture.width + texture.apron,
+                                 texture.height + texture.apron, GL_RG_INTEGER, GL_UNSIGNED_INT, texture.texels.data());
+    if (options.texture_buffer) {
+        upload_record_buffer(texture);
+    } else {
+        upload_records(texture);
+    }
+    return gl_error(gl(), "uploading a texture");
+}
+
+RuntimeStatus Renderer::State::upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width,
+                                             std::uint32_t height) {
+    const auto side = static_cast<std::uint32_t>(max_texture_side);
+    if (width == 0 || height == 0 || rgba8.size() != std::size_t{width} * height * 4)
+        return RuntimeError{RuntimeErrc::NothingUploaded, "the bitmap is empty or not of the stated size"};
+    if (width > side || height > side)
+        return RuntimeError{RuntimeErrc::TextureTooLarge, "the bitmap is beyond " + std::to_string(side) + " a side"};
+    for (const bool filtered : {false, true}) {
+        Program& program = filtered ? filtered_program : bitmap_program;
+        if (program.id != 0) continue;
+        auto built = build_program(gl(), view_vertex_source(options.dialect),
+                                   filtered ? filtered_bitmap_fragment_source(options.dialect)
+                                            : bitmap_fragment_source(options.dialect),
+                                   {"fetexBitmap"});
+        if (!built) return built.error();
+        program = built.value();
+    }
+    gl().DeleteTextures(1, &bitmap_texture);
+    bitmap_texture = make_texture(gl(), kBitmapUnit, GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba8.data());
+    bitmap_width = width;
+    bitmap_height = height;
+    return gl_error(gl(), "uploading a bitmap");
+}
+
+void Renderer::State::bind_fbt() const {
+    gl().ActiveTexture(GL_TEXTURE0 + kTexelUnit);
+    gl().BindTexture(GL_TEXTURE_2D, texel_texture);
+    gl().ActiveTexture(GL_TEXTURE0 + kRecordUnit);
+    gl().BindTexture(options.texture_buffer ? GL_TEXTURE_BUFFER : GL_TEXTURE_2D, record_texture);
+}
+
+void Renderer::State::bind_bitmap(GLint filter) const {
+    gl().ActiveTexture(GL_TEXTURE0 + kBitmapUnit);
+    gl().BindTexture(GL_TEXTURE_2D, bitmap_texture);
+    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+}
+
+void Renderer::State::draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
+                                std::uint32_t height, double shift, std::uint32_t first_x,
+                                std::uint32_t first_y) const {
+    set_grid(gl(), program, axis_grid(view.x, view.w, width, size.width, size.supersample, first_x, shift),
+             axis_grid(view.y, view.h, height, size.height, size.supersample, first_y, shift), size.supersample);
+    gl().DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// Row 0 of a target is the top row of its tile: no flip anywhere.
+Outcome<Image> Renderer::State::render(const Program& program, const View& view, const RenderSize& size,
+                                       std::uint32_t width, std::uint32_t height, double shift) {
+    Image image{size.width, size.height, std::vector<float>(std::size_t{size.width} * size.height * 4)};
+    std::vector<float> tile(std::size_t{kTileSide} * kTileSide * 4);
+    gl().BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    for (std::uint32_t y = 0; y < size.height; y += kTileSide) {
+        for (std::uint32_t x = 0; x < size.width; x += kTileSide) {
+            const std::uint32_t w = std::min(kTileSide, size.width - x), h = std::min(kTileSide, size.height - y);
+            gl().Viewport(0, 0, static_cast<GLsizei>(w), static_cast<GLsizei>(h));
+            draw_tile(program, view, size, width, height, shift, x, y);
+            gl().ReadPixels(0, 0, static_cast<GLsizei>(w), static_cast<GLsizei>(h), GL_RGBA, GL_FLOAT, tile.data());
+            for (std::uint32_t row = 0; row < h; ++row)
+                std::copy_n(tile.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * w * 4), std::size_t{w} * 4,
+                            image.rgba.begin() +
+                                static_cast<std::ptrdiff_t>((std::size_t{y + row} * size.width + x) * 4));
+        }
+    }
+    if (auto bad = gl_error(gl(), "drawing")) return *bad;
+    return image;
+}
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+namespace {
+
+const RuntimeError kNotCurrent = {RuntimeErrc::OutOfMemoryOrLost, "the context can't be made current"};
+
+} // namespace
+
+Outcome<Renderer> Renderer::open(const RendererOptions& options) {
+    if (options.dialect == Dialect::Vulkan450 || (options.texture_buffer && options.dialect == Dialect::Essl300))
+        return RuntimeError{RuntimeErrc::GlTooOld, "this dialect or texture buffers in it can't run in an OpenGL host"};
+    auto context = open_context(options);
+    if (!context) return context.error();
+    auto state = std::make_unique<State>();
+    state->context = std::move(context.value());
+    state->options = options;
+    const CurrentContext current(*state->context);
+    if (!current.ok()) return kNotCurrent;
+    if (auto bad = state->set_up()) return *bad;
+    return Renderer(std::move(state));
+}
+
+const std::string& Renderer::description() const { return state_->context->description; }
+
+RuntimeStatus Renderer::upload(const FbtTexture& texture) {
+    const CurrentContext current(*state_->context);
+    return current.ok() ? state_->upload_fbt(texture) : kNotCurrent;
+}
+
+RuntimeStatus Renderer::upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height) {
+    const CurrentContext current(*state_->context);
+    return current.ok() ? state_->upload_bitmap(rgba8, width, height) : kNotCurrent;
+}
+
+Outcome<Image> Renderer::render(const View& view, const RenderSize& size) {
+    if (auto bad = check_view(view, size)) return *bad;
+    if (state_->fbt_program.id == 0) return RuntimeError{RuntimeErrc::NothingUploaded, "no texture was uploaded"};
+    const CurrentContext current(*state_->context);
+    if (!current.ok()) return kNotCurrent;
+    state_->bind_fbt();
+    return state_->render(state_->fbt_program, view, size, state_->fbt_width, state_->fbt_height, 0);
+}
+
+Outcome<Image> Renderer::render_bitmap(const View& view, const RenderSize& size) {
+    if (auto bad = check_view(view, size)) return *bad;
+    if (state_->bitmap_texture == 0) return RuntimeError{RuntimeErrc::NothingUploaded, "no bitmap was uploaded"};
+    const CurrentContext current(*state_->context);
+    if (!current.ok()) return kNotCurrent;
+    state_->bind_bitmap(GL_NEAREST);
+    return state_->render(state_->bitmap_program, view, size, state_->bitmap_width, state_->bitmap_height,
+                          kBitmapShift);
+}
+
+Outcome<std::vector<double>> Renderer::time_draws(bool fbt, const View& view, std::uint32_t side,
+                                                  std::uint32_t rounds) {
+    State& state = *state_;
+    const RenderSize size{side, side, 1};
+    if (auto bad = check_view(view, size)) return *bad;
+    const Program& program = fbt ? state.fbt_program : state.filtered_program;
+    if (program.id == 0 || side > kTileSide)
+        return RuntimeError{RuntimeErrc::NothingUploaded, "nothing was uploaded, or the side is beyond one tile"};
+    const CurrentContext current(*state.context);
+    if (!current.ok()) return kNotCurrent;
+    auto target = make_target(state.gl(), GL_RGBA8, side);
+    if (!target) return target.error();
+    fbt ? state.bind_fbt() : state.bind_bitmap(GL_LINEAR);
+    state.gl().Viewport(0, 0, static_cast<GLsizei>(side), static_cast<GLsizei>(side));
+    std::vector<double> seconds;
+    for (std::uint32_t round = 0; round < rounds; ++round) {
+        const double start = process_cpu_seconds();
+        state.draw_tile(program, view, size, fbt ? state.fbt_width : state.bitmap_width,
+                        fbt ? state.fbt_height : state.bitmap_height, fbt ? 0 : kBitmapShift, 0, 0);
+        state.gl().Finish();
+        seconds.push_back(process_cpu_seconds() - start);
+    }
+    delete_target(state.gl(), target.value());
+    if (auto bad = gl_error(state.gl(), "timing")) return *bad;
+    return seconds;
+}
+
+} // namespace fetex

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+#include "runtime_glsl/host/shader_source.h"
+
+#include <cassert>
+#include <cstring>
+
+#include "runtime_glsl/host/embedded_shaders.h"
+
+namespace fetex {
+namespace {
+
+std::string file_text(const std::string& name) {
+    for (const EmbeddedShader* shader = kEmbeddedShaders; shader->name; ++shader)
+        if (name == shader->name) return shader->text;
+    assert(!"a shader file that the build doesn't embed");
+    return {};
+}
+
+std::string define(const char* name, std::uint32_t value) {
+    return std::string("#define ") + name + " " + std::to_string(value) + "\n";
+}
+
+} // namespace
+
+const char* dialect_name(Dialect dialect) {
+    switch (dialect) {
+    case Dialect::Glsl330:
+        return "330";
+    case Dialect::Glsl430:
+        return "430";
+    case Dialect::Essl300:
+        return "300es";
+    case Dialect::Vulkan450:
+        return "vulkan450";
+    }
+    return "";
+}
+
+std::string shader_prelude(Dialect dialect, bool texture_buffer) {
+    std::string text = file_text(std::string("fetex_prelude_") + dialect_name(dialect) + ".glsl");
+    if (texture_buffer) text += "#define FETEX_TEXTURE_BUFFER 1\n";
+    return text;
+}
+
+std::string fbt_specialisation(const FbtTraits& traits) {
+    return define("FETEX_FBT_FEATURES", traits.max_entries > 0) + define("FETEX_FBT_DEGREES", traits.degrees) +
+           define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_INTERPOLATED", traits.interpolated) +
+           define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions);
+}
+
+std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer) {
+    return shader_prelude(dialect, texture_buffer) + define("FETEX_FBT_APRON", texture.apron) +
+           fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl");
+}
+
+std::string view_vertex_source(Dialect dialect) { return shader_prelude(dialect) + file_text("view.vert.glsl"); }
+
+std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer) {
+    return fbt_library_source(dialect, texture, texture_buffer) + file_text("view.glsl") + file_text("fbt.frag.glsl");
+}
+
+std::string bitmap_fragment_source(Dialect dialect) {
+    return shader_prelude(dialect) + file_text("view.glsl") + file_text("bitmap.frag.glsl");
+}
+
+std::string filtered_bitmap_fragment_source(Dialect dialect) {
+    return shader_prelude(dialect) + file_text("view.glsl") + file_text("filtered_bitmap.frag.glsl");
+}
+
+} // namespace fetex
