@@ -7,6 +7,33 @@ namespace fetexc::budget {
 /// Unit roundoff of double: |fl(a∘b) − a∘b| ≤ kUnitRoundoff·|a∘b|.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
+/// Added to every widening so that results near 0 stay enclosed; far below any quantity of the compiler (smallest: 2^-60 steps).
+inline constexpr double kUnderflowGuard = 0x1p-1000;
+
+/// de Casteljau in double, degree ≤ 3, |t| ≤ 2, control values at most M from their origin: three levels of a + t(b − a), each with
+/// three roundings of values ≤ 4·M, doubled twice more by |t| ≤ 2: less than 64 roundings of M. For t in [0,1] a quarter of that.
+inline constexpr double kEvaluationError = 64 * kUnitRoundoff;
+
+/// One de Casteljau split of control values at most M: three levels of a + u·(b − a), each with roundings of 2M, 2M and M, convexly
+/// averaged afterwards: less than 16 roundings of M per split.
+inline constexpr double kSplitError = 16 * kUnitRoundoff;
+
+/// Relative parameter width below which the intersection filter hands a pair to exact arithmetic: the enclosures of a double
+/// root can't be told apart below the square root of the evaluation error (2^-24), simple roots are certified long before.
+inline constexpr double kFilterMinWidth = 0x1p-36;
+
+/// Box pairs the filter looks at before it hands the pair to exact arithmetic; generic pairs need 1…60.
+inline constexpr int kFilterMaxBoxes = 1500;
+
+/// Bits of a certified refinement in exact arithmetic: first try, and the limit at which two curves that never separate are
+/// reported as an inconsistency instead of looping (2^-4096 of a parameter is beyond any root separation seen).
+inline constexpr int kRefineBits = 96;
+inline constexpr int kRefineBitsLimit = 4096;
+
+/// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below this. The point
+/// lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by any output.
+inline constexpr int kSameBranchBits = 60;
+
 /// Lattice steps; end points closer than this are one vertex: 2^-20 of the extent of 2^26 steps (DESIGN §3).
 inline constexpr double kMergeDistance = 64.0;
 
@@ -22,5 +49,12 @@ inline constexpr double kOutputStep = 0x1p-15;
 /// Texels; a sampled point farther than this from every edge is in the right region: half a diagonal of the output grid
 /// (2^-16·√2) for a control point, the same again for the f32 evaluation and the parameter stop of the sampler (DESIGN §7).
 inline constexpr double kRegionTolerance = 0x1p-14;
+
+/// Steps of an 8-bit colour channel: compositing k layers rounds k·2^-51 of a step at most, so a product that is an exact tie lands within
+/// this of it for any k below 2^20, and always rounds up.
+inline constexpr double kColourTie = 0x1p-30;
+
+/// Lattice steps: accuracy of the ground truth's distances. Evaluating a Bezier of coordinates up to 2^28 in double errs by 2^-23 at most.
+inline constexpr double kDistanceAccuracy = 1e-6;
 
 } // namespace fetexc::budget
