@@ -13,24 +13,6 @@ namespace {
 
 using Rgba = std::array<double, 4>;
 
-/// Where sample q of an image axis lies; tiles as on the GPU, each with an origin of its own.
-class ImageAxis {
-  public:
-    ImageAxis(double start, double extent, std::uint32_t size, std::uint32_t pixels, std::uint32_t supersample,
-              double shift = 0)
-        : supersample_(supersample) {
-        for (std::uint32_t first = 0; first < pixels; first += kTileSide)
-            tiles_.push_back(axis_grid(start, extent, size, pixels, supersample, first, shift));
-    }
-    [[nodiscard]] std::int64_t position(std::uint32_t pixel, std::uint32_t sample) const {
-        return tiles_[pixel / kTileSide].at(pixel % kTileSide * supersample_ + sample);
-    }
-
-  private:
-    std::uint32_t supersample_;
-    std::vector<AxisGrid> tiles_;
-};
-
 /// Calls work(row) for every row, from several threads; rows don't depend on each other.
 template <class Work> void for_each_row(std::uint32_t rows, unsigned threads, const Work& work) {
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());

@@ -23,6 +23,13 @@ AxisGrid axis_grid(double view_start, double view_extent, std::uint32_t size, st
     return grid;
 }
 
+ImageAxis::ImageAxis(double view_start, double view_extent, std::uint32_t size, std::uint32_t pixels,
+                     std::uint32_t supersample, double shift)
+    : supersample_(supersample) {
+    for (std::uint32_t first = 0; first < pixels; first += kTileSide)
+        tiles_.push_back(axis_grid(view_start, view_extent, size, pixels, supersample, first, shift));
+}
+
 BaseAndLocal base_and_local(std::int64_t position, std::uint32_t size) {
     const std::int64_t whole = position >> 32;
     if (whole < 0) return {0, 0.0};

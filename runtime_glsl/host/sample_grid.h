@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "runtime_glsl/host/image.h"
 
@@ -31,6 +32,21 @@ struct BaseAndLocal {
 /// shift in texels is subtracted (bitmaps: 1/2, their texel centres).
 AxisGrid axis_grid(double view_start, double view_extent, std::uint32_t size, std::uint32_t pixels,
                    std::uint32_t supersample, std::uint32_t first_pixel, double shift = 0);
+
+/// A whole image axis, tile by tile.
+class ImageAxis {
+  public:
+    ImageAxis(double view_start, double view_extent, std::uint32_t size, std::uint32_t pixels,
+              std::uint32_t supersample, double shift = 0);
+    /// Of sample 0 … supersample−1 of a pixel, in 2^-32 texel.
+    [[nodiscard]] std::int64_t position(std::uint32_t pixel, std::uint32_t sample) const {
+        return tiles_[pixel / kTileSide].at(pixel % kTileSide * supersample_ + sample);
+    }
+
+  private:
+    std::uint32_t supersample_;
+    std::vector<AxisGrid> tiles_;
+};
 
 /// Clamped to the texture.
 BaseAndLocal base_and_local(std::int64_t position, std::uint32_t size);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// GLSL = CPU reference, pixel by pixel. Header only, for the conformance tests and the corpus runner.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "formats/fbt.h"
+#include "runtime_glsl/host/renderer.h"
+#include "runtime_glsl/host/sample_grid.h"
+
+namespace fetexc::test {
+
+/// Texels. A pixel whose reference colour changes when its centre moves by this much lies on an edge: quantised
+/// geometry and fp32 evaluation may put it on either side (error_budget.h, kRegionTolerance).
+inline constexpr double kEdgeHair = 0x1p-14;
+inline constexpr double kColorStep = 1.0 / 255;
+
+struct Comparison {
+    std::uint64_t pixels = 0;
+    std::uint64_t on_edge = 0; ///< differ by more than 1/255, but lie on an edge
+    std::uint64_t wrong = 0;   ///< differ by more than 1/255, away from every edge
+    double largest = 0;        ///< largest difference of a channel away from edges
+    std::string first_wrong;   ///< where, for a message
+    std::string error;         ///< the renderer failed; nothing was compared
+
+    void add(const Comparison& other) {
+        pixels += other.pixels;
+        on_edge += other.on_edge;
+        wrong += other.wrong;
+        largest = std::max(largest, other.largest);
+        if (first_wrong.empty()) first_wrong = other.first_wrong;
+        if (error.empty()) error = other.error;
+    }
+    [[nodiscard]] bool equal() const { return error.empty() && wrong == 0 && pixels > 0; }
+};
+
+inline double color_distance(const fetex::FbtColor& a, const fetex::FbtColor& b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
+}
+
+/// Whether the reference colour changes within a hair of the point, in the eight directions.
+inline bool on_edge(const fetex::FbtTexture& texture, double x, double y) {
+    const fetex::FbtColor center = fetex::fbt_sample(texture, x, y);
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (color_distance(center, fetex::fbt_sample(texture, x + dx * kEdgeHair, y + dy * kEdgeHair)) > kColorStep)
+                return true;
+    return false;
+}
+
+/// One frame, one sample a pixel.
+inline Comparison compare_frame(const fetex::FbtTexture& texture, fetex::Renderer& renderer, const fetex::View& view,
+                                std::uint32_t width, std::uint32_t height) {
+    Comparison result;
+    const fetex::RenderSize size{width, height, 1};
+    const auto reference = fetex::render_cpu(texture, view, size);
+    const auto drawn = renderer.render(view, size);
+    if (!reference.ok() || !drawn.ok()) {
+        result.error = (reference.ok() ? drawn : reference).error().message;
+        return result;
+    }
+    const fetex::ImageAxis columns(view.x, view.w, texture.width, width, 1);
+    const fetex::ImageAxis rows(view.y, view.h, texture.height, height, 1);
+    result.pixels = std::uint64_t{width} * height;
+    for (std::uint32_t py = 0; py < height; ++py) {
+        for (std::uint32_t px = 0; px < width; ++px) {
+            double difference = 0;
+            for (std::size_t c = 0; c < 4; ++c) {
+                const std::size_t at = (std::size_t{py} * width + px) * 4 + c;
+                difference =
+                    std::max<double>(difference, std::abs(reference.value().rgba[at] - drawn.value().rgba[at]));
+            }
+            const double x = std::ldexp(static_cast<double>(columns.position(px, 0)), -32);
+            const double y = std::ldexp(static_cast<double>(rows.position(py, 0)), -32);
+            if (difference <= kColorStep) {
+                result.largest = std::max(result.largest, difference);
+            } else if (on_edge(texture, x, y)) {
+                ++result.on_edge;
+            } else {
+                ++result.wrong;
+                result.largest = std::max(result.largest, difference);
+                if (result.first_wrong.empty())
+                    result.first_wrong = "texel position (" + std::to_string(x) + ", " + std::to_string(y) +
+                                         "), difference " + std::to_string(difference);
+            }
+        }
+    }
+    return result;
+}
+
+/// Frames of side² pixels at a magnification in pixels per texel: one at the origin, then `more` of them around random
+/// texels that hold features (or any, if none does). The renderer has the texture uploaded.
+inline Comparison compare_at(const fetex::FbtTexture& texture, fetex::Renderer& renderer, double pixels_per_texel,
+                             std::uint32_t side, std::uint32_t more, std::uint64_t seed) {
+    std::vector<std::uint32_t> texels;
+    for (std::uint32_t j = 0; j < texture.height; ++j)
+        for (std::uint32_t i = 0; i < texture.width; ++i)
+            if (texture.texels[(std::size_t{j} * (texture.width + texture.apron) + i) * 2 + 1] >> 30 != 0)
+                texels.push_back(j * texture.width + i);
+    if (texels.empty()) texels.push_back(0);
+    const double extent = side / pixels_per_texel; // texels across the frame
+    fetex::View view{0, 0, extent / texture.width, extent / texture.height};
+    Comparison total = compare_frame(texture, renderer, view, side, side);
+    std::mt19937_64 random(seed);
+    for (std::uint32_t k = 0; k < more; ++k) {
+        const std::uint32_t texel = texels[random() % texels.size()];
+        const double dx = static_cast<double>(random() >> 11) * 0x1p-53,
+                     dy = static_cast<double>(random() >> 11) * 0x1p-53;
+        view.x = (texel % texture.width + dx - extent / 2) / texture.width;
+        view.y = (texel / texture.width + dy - extent / 2) / texture.height;
+        total.add(compare_frame(texture, renderer, view, side, side));
+    }
+    return total;
+}
+
+} // namespace fetexc::test

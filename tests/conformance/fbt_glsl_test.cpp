@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The GLSL sampler equals the CPU reference within 1/255 in every pixel that isn't on an edge, on every back end that
+/// this machine has, in every dialect that runs there.
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "formats/validate.h"
+#include "tests/conformance/compare_renderers.h"
+#include "tests/support/random_fbt.h"
+
+namespace fetexc::test {
+namespace {
+
+using fetex::Backend;
+using fetex::Dialect;
+using fetex::FbtTexture;
+using fetex::Renderer;
+using fetex::RendererOptions;
+
+constexpr double kMagnifications[] = {1, 8, 64, 512};
+
+/// Edge pixels may go either way, but in random textures only about perimeter·hair of the area is edge.
+constexpr double kLargestEdgeShare = 1e-3;
+
+std::string describe(const RendererOptions& options) {
+    return std::string(fetex::backend_name(options.backend)) + " " + fetex::dialect_name(options.dialect) +
+           (options.texture_buffer ? " texture buffer" : "");
+}
+
+std::vector<RendererOptions> variants() {
+    std::vector<RendererOptions> all;
+    for (const Backend backend : fetex::kBackends)
+        all.push_back({.backend = backend});
+    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Glsl430});
+    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Essl300});
+    all.push_back({.backend = Backend::OSMesa, .texture_buffer = true});
+    all.push_back({.backend = Backend::EglSurfaceless, .dialect = Dialect::Essl300});
+    return all;
+}
+
+class Conformance : public testing::TestWithParam<RendererOptions> {
+  protected:
+    /// GLFW needs a display; the others come with the packages that the build asks for and must work.
+    void SetUp() override {
+        auto opened = Renderer::open(GetParam());
+        if (opened.ok()) {
+            renderer_.emplace(std::move(opened.value()));
+        } else if (GetParam().backend == Backend::Glfw && !std::getenv("DISPLAY")) {
+            GTEST_SKIP() << "no DISPLAY: " << opened.error().message;
+        } else {
+            FAIL() << describe(GetParam()) << ": " << opened.error().message;
+        }
+    }
+
+    void expect_equal(const FbtTexture& texture, double magnification, std::uint32_t side, std::uint64_t seed) {
+        const auto bad = renderer_->upload(texture);
+        ASSERT_FALSE(bad.has_value()) << bad->message;
+        const Comparison found = compare_at(texture, *renderer_, magnification, side, 3, seed);
+        EXPECT_TRUE(found.equal()) << found.wrong << " of " << found.pixels << " pixels wrong at " << magnification
+                                   << " px/texel, seed " << seed << "; " << found.first_wrong << found.error;
+        EXPECT_LE(static_cast<double>(found.on_edge), kLargestEdgeShare * static_cast<double>(found.pixels));
+        total_.add(found);
+    }
+
+    std::optional<Renderer> renderer_;
+    Comparison total_;
+};
+
+TEST_P(Conformance, equalsTheReferenceOnRandomTextures) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const FbtTexture texture = random_fbt(seed, {.width = 24, .height = 17, .apron = 1});
+        ASSERT_TRUE(fetex::validate_fbt(texture).empty());
+        for (const double magnification : kMagnifications)
+            expect_equal(texture, magnification, 192, seed);
+    }
+    RecordProperty("pixels_on_edge", std::to_string(total_.on_edge));
+    std::printf("  %s: %llu pixels, %llu on an edge, largest difference %.2e\n", describe(GetParam()).c_str(),
+                static_cast<unsigned long long>(total_.pixels), static_cast<unsigned long long>(total_.on_edge),
+                total_.largest);
+}
+
+/// Each trait switched off leaves code out of the shader; what stays must still be right.
+TEST_P(Conformance, equalsTheReferenceWhenSpecialised) {
+    for (std::uint32_t trait = 0; trait < 12; ++trait) {
+        RandomFbtOptions options{.width = 9, .height = 9};
+        options.apron = trait % 2;
+        if (trait < 4) options.degrees = (0b1110u & (2u << trait)) | (trait == 3 ? 0 : 0); // one degree, then none
+        if (trait >= 4 && trait < 8) options.directions = 1u << (trait - 4);
+        options.bands = trait != 8;
+        options.interpolated = trait != 9;
+        options.translucent = trait != 10;
+        if (trait == 11) options.max_features = 40;
+        const FbtTexture texture = random_fbt(100 + trait, options);
+        ASSERT_TRUE(fetex::validate_fbt(texture).empty()) << fetex::validate_fbt(texture)[0].message;
+        expect_equal(texture, 8, 96, trait);
+        expect_equal(texture, 512, 96, trait);
+    }
+}
+
+/// fp32 has 10 bits left for the place in a texel at 16384; fixed point has 32.
+TEST_P(Conformance, staysSharpFarFromTheOrigin) {
+    const FbtTexture texture = random_fbt(7, {.width = 16384, .height = 3, .apron = 0});
+    ASSERT_FALSE(renderer_->upload(texture).has_value());
+    const double extent = 192.0 / 512;
+    for (const double i : {16383.0, 16000.25, 12345.0}) {
+        const fetex::View view{i / 16384, 1.0 / 3, extent / 16384, extent / 3};
+        const Comparison found = compare_frame(texture, *renderer_, view, 192, 192);
+        EXPECT_TRUE(found.equal()) << found.wrong << " wrong; " << found.first_wrong << found.error;
+    }
+}
+
+TEST_P(Conformance, supersamplesAsTheReferenceDoes) {
+    const FbtTexture texture = random_fbt(11);
+    ASSERT_FALSE(renderer_->upload(texture).has_value());
+    const fetex::View view{-0.25, 0.1, 1.5, 0.8};
+    const fetex::RenderSize size{70, 50, 4};
+    const auto reference = fetex::render_cpu(texture, view, size);
+    const auto drawn = renderer_->render(view, size);
+    ASSERT_TRUE(reference.ok() && drawn.ok());
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < reference.value().rgba.size(); ++k)
+        different += std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) > kColorStep;
+    // One of the 16 samples of a pixel may lie on an edge.
+    EXPECT_LE(different, reference.value().rgba.size() / 500);
+}
+
+TEST_P(Conformance, drawsTilesWithoutSeams) {
+    const FbtTexture texture = random_fbt(12, {.width = 40, .height = 33});
+    ASSERT_FALSE(renderer_->upload(texture).has_value());
+    const Comparison found = compare_frame(texture, *renderer_, {}, 2 * fetex::kTileSide + 37, fetex::kTileSide + 1);
+    EXPECT_TRUE(found.equal()) << found.wrong << " wrong; " << found.first_wrong << found.error;
+}
+
+TEST_P(Conformance, drawsBitmapsAsTheReferenceDoes) {
+    std::vector<std::uint8_t> bitmap(std::size_t{13} * 9 * 4);
+    for (std::size_t k = 0; k < bitmap.size(); ++k)
+        bitmap[k] = static_cast<std::uint8_t>(k * 197 % 251);
+    ASSERT_FALSE(renderer_->upload_bitmap(bitmap, 13, 9).has_value());
+    const fetex::View view{-0.1, -0.2, 1.3, 1.1};
+    const fetex::RenderSize size{600, 200, 2};
+    const auto reference = fetex::render_bitmap_cpu(bitmap, 13, 9, view, size);
+    const auto drawn = renderer_->render_bitmap(view, size);
+    ASSERT_TRUE(reference.ok() && drawn.ok());
+    double largest = 0;
+    for (std::size_t k = 0; k < reference.value().rgba.size(); ++k)
+        largest = std::max<double>(largest, std::abs(reference.value().rgba[k] - drawn.value().rgba[k]));
+    EXPECT_LE(largest, 0.02 * kColorStep);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Conformance, testing::ValuesIn(variants()), [](const auto& tested) {
+    std::string name = describe(tested.param);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+    return name;
+});
+
+/// Renderers of different libraries live side by side: each call makes its own context current and releases it.
+TEST(Backends, takeTurns) {
+    const FbtTexture texture = random_fbt(5);
+    std::vector<Renderer> renderers;
+    for (const Backend backend : fetex::kBackends) {
+        auto opened = Renderer::open(backend);
+        if (!opened.ok()) continue;
+        ASSERT_FALSE(opened.value().upload(texture).has_value());
+        renderers.push_back(std::move(opened.value()));
+    }
+    ASSERT_GE(renderers.size(), 2u);
+    for (int round = 0; round < 3; ++round)
+        for (Renderer& renderer : renderers)
+            EXPECT_TRUE(compare_frame(texture, renderer, {}, 64, 64).equal());
+}
+
+} // namespace
+} // namespace fetexc::test
