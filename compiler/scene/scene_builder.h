@@ -45,6 +45,7 @@ class SceneBuilder {
     /// that guard box without changing any winding number inside it. NaN/inf coordinates make finish() fail.
     std::uint32_t add_shape(const std::vector<CanvasContour>& contours, FillRule rule, std::uint32_t element);
     std::uint32_t add_element(std::string name);
+    [[nodiscard]] std::uint32_t shape_count() const { return static_cast<std::uint32_t>(raw_.size()); }
 
     /// Direct access for everything that needs no processing.
     Scene& scene() { return scene_; }

@@ -84,12 +84,11 @@ class SceneMaker {
     }
 
     std::vector<std::uint32_t> next_shapes() {
-        if (!known_.empty() && random_.chance(options_.copied))
-            return {static_cast<std::uint32_t>(random_.integer(0, static_cast<int>(known_.size()) - 1))};
-        if (!known_.empty() && random_.chance(options_.reversed)) {
-            const auto i = static_cast<std::size_t>(random_.integer(0, static_cast<int>(known_.size()) - 1));
-            return {add(reversed(known_[i]))};
+        if (!known_.empty() && random_.chance(options_.copied)) {
+            const std::uint32_t shape = known_shape();
+            return {random_.chance(0.5) ? shape : add(known_[shape])};
         }
+        if (!known_.empty() && random_.chance(options_.reversed)) return {add(reversed(known_[known_shape()]))};
         if (random_.chance(options_.cover)) {
             const double half = random_.chance(0.5) ? 0.5 : 1.0;
             return {add({rectangle(0, 0, options_.space.width * half, options_.space.height)})};
@@ -100,15 +99,20 @@ class SceneMaker {
         return out;
     }
 
-    std::uint32_t add(const Contours& contours) {
+    std::uint32_t add(Contours contours) { // a copy: the argument may lie in known_
         const FillRule rule = random_.chance(options_.even_odd) ? FillRule::EvenOdd : FillRule::NonZero;
-        known_.push_back(contours);
-        return builder_.add_shape(contours, rule, kNone);
+        const std::uint32_t shape = builder_.add_shape(contours, rule, kNone);
+        known_.push_back(std::move(contours));
+        return shape;
+    }
+
+    std::uint32_t known_shape() {
+        return static_cast<std::uint32_t>(random_.integer(0, static_cast<int>(known_.size()) - 1));
     }
 
     std::uint32_t some_shape() {
         if (known_.empty() || random_.chance(0.5)) return next_shapes().front();
-        return static_cast<std::uint32_t>(random_.integer(0, static_cast<int>(known_.size()) - 1));
+        return known_shape();
     }
 
     Rgba new_color() {
@@ -203,7 +207,7 @@ class SceneMaker {
     Random random_;
     const RandomSceneOptions& options_;
     SceneBuilder builder_;
-    std::vector<Contours> known_;
+    std::vector<Contours> known_;             ///< by shape index
     std::vector<std::vector<Node>> contents_; ///< per mask
 };
 
