@@ -40,7 +40,10 @@ struct PlanarStats {
 };
 struct FbtStats {
     std::uint64_t texels_empty = 0, texels_two_regions = 0, texels_more_regions = 0, texels_banded = 0;
-    std::uint64_t bands = 0, bands_avoided = 0, features = 0, pieces = 0, regions = 0, regions_interpolated = 0;
+    std::uint64_t bands = 0;         ///< in banded texels
+    std::uint64_t bands_avoided = 0; ///< horizontal lines of the trapezoid decomposition that became no band line
+    std::uint64_t features = 0, pieces = 0, regions = 0, regions_interpolated = 0;
+    std::uint64_t runs_shared = 0, pieces_demoted = 0;
     std::uint64_t slivers_collapsed = 0, gpu_bytes = 0;
 };
 struct CompileReport {
@@ -50,7 +53,6 @@ struct CompileReport {
     std::vector<Diagnostic> diagnostics;
 };
 
-/// FBT record index → ResultId is for tests: which visible result each entry (or empty texel) stands for.
 struct FbtBuild {
     fetex::FbtTexture texture;
     CompileReport report;

@@ -40,11 +40,22 @@ inline constexpr double kMergeDistance = 64.0;
 /// Arcs become cubics that stay within this many lattice steps of the true arc (one step, DESIGN §4).
 inline constexpr double kArcTolerance = 1.0;
 
-/// Stroke outlines: largest distance, in lattice steps, between the cubic outline and the true offset curve.
-inline constexpr double kStrokeTolerance = 1.0;
+/// Stroke outlines: largest distance, in lattice steps, between the cubic outline and the true offset curve: 2^-22 of the extent, a
+/// quarter of the merge distance. At 256 texels that is two steps of the output grid (2^-15 texel); offsets of cubics need
+/// 1.6 times as many segments for each factor 2^4 of accuracy.
+inline constexpr double kStrokeTolerance = 16.0;
+
+/// Gradient stops closer than this are one hard edge: the SVG parser moves equal offsets apart by 2^-23 up to twice.
+inline constexpr double kHardEdgeGap = 3e-7;
+
+/// Relative to the larger canvas side: how far the regions of gradient bands reach beyond the canvas. Anything positive does.
+inline constexpr double kBandMargin = 0x1p-4;
 
 /// Texels; one step of the u16 output grid on [-1/2, 3/2).
 inline constexpr double kOutputStep = 0x1p-15;
+
+/// Texels; a piece is stored with a lower degree when that moves it by no more than this: an eighth of the region tolerance.
+inline constexpr double kDemotionTolerance = 0x1p-17;
 
 /// Texels; a sampled point farther than this from every edge is in the right region: half a diagonal of the output grid
 /// (2^-16·√2) for a control point, the same again for the f32 evaluation and the parameter stop of the sampler (DESIGN §7).

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/fbt/fbt_builder.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "compiler/diagnostics.h"
+#include "compiler/fbt/row_writer.h"
+
+namespace fetexc {
+namespace {
+
+constexpr std::uint32_t kMaxSize = 16384;
+
+/// Reports at most once per percent, from one thread at a time.
+class RowProgress {
+  public:
+    RowProgress(const ProgressSink& sink, std::uint32_t rows) : sink_(sink), rows_(rows) {}
+    void row_done() {
+        const std::uint32_t done = ++done_;
+        if (!sink_ || done * 100 / rows_ == (done - 1) * 100 / rows_) return;
+        const std::lock_guard lock(mutex_);
+        sink_("fbt", static_cast<double>(done) / rows_);
+    }
+
+  private:
+    const ProgressSink& sink_;
+    std::uint32_t rows_;
+    std::atomic<std::uint32_t> done_{0};
+    std::mutex mutex_;
+};
+
+void add(PlanarStats& a, const PlanarStats& b) {
+    a.exact_comparisons += b.exact_comparisons;
+    a.texels += b.texels, a.texels_empty += b.texels_empty, a.texels_simple += b.texels_simple, a.texels_arranged += b.texels_arranged;
+    a.trapezoids += b.trapezoids, a.regions += b.regions;
+    a.edges_invisible += b.edges_invisible, a.edges_visible += b.edges_visible;
+}
+
+void add(FbtStats& a, const FbtStats& b) {
+    a.texels_empty += b.texels_empty, a.texels_two_regions += b.texels_two_regions, a.texels_more_regions += b.texels_more_regions;
+    a.texels_banded += b.texels_banded, a.bands += b.bands, a.bands_avoided += b.bands_avoided;
+    a.features += b.features, a.pieces += b.pieces, a.regions += b.regions, a.regions_interpolated += b.regions_interpolated;
+    a.runs_shared += b.runs_shared, a.pieces_demoted += b.pieces_demoted, a.slivers_collapsed += b.slivers_collapsed;
+}
+
+void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
+    a.max_degree = std::max(a.max_degree, b.max_degree);
+    a.degrees |= b.degrees, a.directions |= b.directions;
+    a.bands = a.bands || b.bands, a.interpolated = a.interpolated || b.interpolated, a.translucent = a.translucent || b.translucent;
+    a.max_entries = std::max(a.max_entries, b.max_entries), a.max_bands = std::max(a.max_bands, b.max_bands);
+}
+
+Error inconsistent(std::uint32_t i, std::uint32_t j) {
+    return {ErrorClass::Runtime, diag::kPlanarInconsistent, "the planar map contradicts itself; please report this file",
+            "texel (" + std::to_string(i) + ", " + std::to_string(j) + ")"};
+}
+
+class Builder {
+  public:
+    Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map, Compositor& compositor)
+        : scene_(scene), options_(options), map_(map), compositor_(compositor), corners_(map, scene, compositor),
+          sampler_(map, scene, compositor, corners_), progress_(progress, map.grid().height) {}
+
+    Result<FbtBuild> run(CompileReport report, FbtRegions* regions) {
+        const Grid& g = map_.grid();
+        std::vector<RowOutput> rows(g.height);
+        std::vector<PlanarStats> stats(g.height);
+        std::vector<Status> status(g.height);
+        tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options_.threads));
+        arena.execute([&] {
+            tbb::parallel_for(0u, g.height, [&](std::uint32_t j) {
+                status[j] = build_row(j, rows[j], stats[j]);
+                progress_.row_done();
+            });
+        });
+        for (const Status& s : status) {
+            if (!s) return s.error();
+        }
+        for (const PlanarStats& s : stats) add(report.planar, s);
+        return join(rows, std::move(report), regions);
+    }
+
+  private:
+    Status build_row(std::uint32_t j, RowOutput& out, PlanarStats& stats) {
+        TexelMapper mapper(map_, scene_, compositor_, stats);
+        RowWriter writer(map_, sampler_, out);
+        TexelMap texel;
+        TexelFeatures features;
+        Status status;
+        map_.along_row(j, [&](std::uint32_t i, const Windings& corner) {
+            if (i == map_.grid().width || !status) return;
+            const std::span<const SubEdge> edges = map_.sub_edges(i, j);
+            ++stats.texels;
+            ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
+            if (edges.empty()) return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            if (!mapper.analyse(i, j, corner, texel) || !build_features(map_, mapper, texel, features)) {
+                status = inconsistent(i, j);
+                return;
+            }
+            stats.edges_visible += features.edges_visible, stats.edges_invisible += features.edges_invisible;
+            if (features.bands.empty()) return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            out.stats.bands_avoided += levels(texel) - std::min(levels(texel), features.bands.size() - 1);
+            writer.write_texel(corners_.rgba(i, j), texel, features);
+        });
+        return status;
+    }
+
+    /// Horizontal lines that the trapezoid decomposition of the paper's §4.4 draws inside the texel.
+    [[nodiscard]] std::size_t levels(const TexelMap& texel) const {
+        std::size_t n = 0;
+        for (std::uint32_t k : texel.nodes) {
+            if (map_.node(k).hy == texel.frame.top + 1) ++n;
+        }
+        return n;
+    }
+
+    Result<FbtBuild> join(std::vector<RowOutput>& rows, CompileReport report, FbtRegions* regions) {
+        FbtBuild build;
+        build.report = std::move(report);
+        fetex::FbtTexture& t = build.texture;
+        t.width = map_.grid().width, t.height = map_.grid().height;
+        for (const RowOutput& row : rows) add(t.traits, row.traits), add(build.report.fbt, row.stats);
+        t.apron = t.traits.interpolated ? 1 : 0;
+        for (std::uint32_t j = 0; j < t.height; ++j) {
+            const std::uint64_t base = t.records.size() / 4;
+            if (base + rows[j].records.size() / 4 > fetex::kFbtAddressMask) {
+                return Error{ErrorClass::Unsupported, diag::kFbtTooLarge, "the texture needs more records than the format can address", ""};
+            }
+            append_row(rows[j], static_cast<std::uint32_t>(base), t, regions);
+            if (t.apron == 1) append_corner(t.width, j, t);
+        }
+        for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i) append_corner(i, t.height, t);
+        build.report.fbt.gpu_bytes = (t.texels.size() + t.records.size()) * sizeof(std::uint32_t);
+        if (regions != nullptr) {
+            for (std::uint32_t j = 0; j <= t.height; ++j) {
+                for (std::uint32_t i = 0; i <= t.width; ++i) regions->corners.push_back(corners_.at(i, j));
+            }
+        }
+        return build;
+    }
+
+    static void append_row(RowOutput& row, std::uint32_t base, fetex::FbtTexture& t, FbtRegions* regions) {
+        for (std::uint32_t w : row.relocate) row.records[w] += base;
+        for (std::size_t k = 1; k < row.texels.size(); k += 2) {
+            if (row.texels[k] >> 30 != fetex::kFbtKindEmpty) row.texels[k] += base;
+        }
+        t.texels.insert(t.texels.end(), row.texels.begin(), row.texels.end());
+        t.records.insert(t.records.end(), row.records.begin(), row.records.end());
+        for (const auto& [record, result] : row.entries) {
+            if (regions != nullptr) regions->entries.emplace_back(record + base, result);
+        }
+        row = {};
+    }
+
+    void append_corner(std::uint32_t i, std::uint32_t j, fetex::FbtTexture& t) const {
+        t.texels.push_back(corners_.rgba(i, j));
+        t.texels.push_back(fetex::kFbtKindEmpty << 30);
+    }
+
+    const Scene& scene_;
+    const CompileOptions& options_;
+    const PlanarMap& map_;
+    Compositor& compositor_;
+    CornerResults corners_;
+    RegionSampler sampler_;
+    RowProgress progress_;
+};
+
+std::uint32_t other_side(double by, double along, std::uint32_t texels) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(by * texels / along), 1.0, static_cast<double>(kMaxSize)));
+}
+
+GridSize complete(const Extent& e, GridSize s) {
+    if (s.width == 0 && s.height != 0) s.width = other_side(e.width, e.height, s.height);
+    if (s.height == 0 && s.width != 0) s.height = other_side(e.height, e.width, s.width);
+    return s;
+}
+
+} // namespace
+
+ResultId FbtRegions::result_of(const fetex::FbtRegion& region, std::uint32_t width) const {
+    if (region.record == 0xffffffffu) return corners[static_cast<std::size_t>(region.j) * (width + 1) + region.i];
+    return std::lower_bound(entries.begin(), entries.end(), std::pair(region.record, 0u))->second;
+}
+
+GridSize grid_for(const Extent& extent, std::uint32_t longer_side) {
+    return complete(extent, extent.width >= extent.height ? GridSize{longer_side, 0} : GridSize{0, longer_side});
+}
+
+Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, FbtRegions* regions) {
+    const GridSize size = complete(scene.extent, options.size);
+    if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize) {
+        return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
+    }
+    CompileReport report;
+    report.scene = scene.stats;
+    if (progress) progress("planar map", 0);
+    const Grid grid = make_grid(scene.extent, size.width, size.height);
+    Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, report.planar);
+    if (!map) return map.error();
+    auto compositor = std::make_unique<Compositor>(scene);
+    Result<FbtBuild> build = Builder(scene, options, progress, map.value(), *compositor).run(report, regions);
+    if (regions != nullptr) regions->compositor = std::move(compositor);
+    return build;
+}
+
+Result<FbtBuild> compile_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress) {
+    return build_fbt(scene, options, progress, nullptr);
+}
+
+} // namespace fetexc

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Output geometry: the chain of a simple feature as quantised pieces, in texel-local coordinates (formats/fbt.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiler/fbt/features.h"
+
+namespace fetexc {
+
+/// A quantised point, x in the low half.
+using PackedPoint = std::uint32_t;
+
+/// v in texel units → u16 on [-1/2, 3/2), rounded to nearest, clamped.
+std::uint32_t quantise(double v);
+
+struct Piece {
+    int degree = 1;
+    std::array<PackedPoint, 4> p{};
+};
+
+/// Consecutive pieces of one degree; consecutive pieces share end points.
+struct Run {
+    int degree = 1;
+    std::vector<Piece> pieces;
+};
+
+struct PieceStats {
+    std::uint64_t pieces = 0, demoted = 0, vanished = 0;
+};
+
+/// Joins steps along one arc, lowers degrees within kDemotionTolerance, quantises, drops pieces that vanish. End points come from the
+/// nodes, so chains stay closed and neighbouring texels meet.
+std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps, PieceStats& stats);
+
+} // namespace fetexc

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/geometry/curve.h"
+
+#include <cstdlib>
+
+namespace fetexc {
+namespace {
+
+using Int128 = __int128;
+
+Int128 cross(IntPoint o, IntPoint a, IntPoint b) {
+    return static_cast<Int128>(a.x - o.x) * (b.y - o.y) - static_cast<Int128>(a.y - o.y) * (b.x - o.x);
+}
+
+Coordinate coordinate(const Curve& c, Axis axis) {
+    Coordinate out;
+    const auto get = [&](std::size_t i) { return axis == Axis::X ? c.p[i].x : c.p[i].y; };
+    out.origin = get(0);
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(c.degree); ++i) {
+        out.local[i] = static_cast<double>(get(i) - out.origin);
+        out.magnitude = std::max(out.magnitude, std::fabs(out.local[i]));
+    }
+    return out;
+}
+
+/// A cubic whose leading coefficient vanishes, and whose quadratic control point is an integer point.
+bool reduce_cubic(Curve& c) {
+    const auto lead = [](std::int64_t a, std::int64_t b, std::int64_t d, std::int64_t e) { return e - 3 * d + 3 * b - a; };
+    if (lead(c.p[0].x, c.p[1].x, c.p[2].x, c.p[3].x) != 0 || lead(c.p[0].y, c.p[1].y, c.p[2].y, c.p[3].y) != 0) return false;
+    const std::int64_t qx = 3 * c.p[1].x - c.p[0].x, qy = 3 * c.p[1].y - c.p[0].y;
+    if (qx % 2 != 0 || qy % 2 != 0) return false;
+    c.p = {c.p[0], IntPoint{qx / 2, qy / 2}, c.p[3], IntPoint{}};
+    c.degree = 2;
+    return true;
+}
+
+double casteljau(const std::array<double, 4>& v, int degree, double t) {
+    std::array<double, 4> q = v;
+    for (int k = degree; k > 0; --k) {
+        for (int i = 0; i < k; ++i) q[i] += t * (q[i + 1] - q[i]);
+    }
+    return q[0];
+}
+
+std::array<double, 4> hodograph(const Coordinate& c, int degree) {
+    std::array<double, 4> d{};
+    for (int i = 0; i < degree; ++i) d[i] = degree * (c.local[i + 1] - c.local[i]);
+    return d;
+}
+
+/// Polar form of degree n at the given arguments.
+double blossom(const std::array<double, 4>& v, int degree, const std::array<double, 3>& t) {
+    std::array<double, 4> q = v;
+    for (int k = degree; k > 0; --k) {
+        const double u = t[degree - k];
+        // u = 1 is exact, so that a zero handle at the end stays exactly zero.
+        for (int i = 0; i < k; ++i) q[i] = u == 1 ? q[i + 1] : q[i] + u * (q[i + 1] - q[i]);
+    }
+    return q[0];
+}
+
+std::array<double, 4> blossom_stretch(const std::array<double, 4>& v, int degree, double t0, double t1) {
+    std::array<double, 4> out{};
+    for (int k = 0; k <= degree; ++k) {
+        std::array<double, 3> args{};
+        for (int i = 0; i < degree; ++i) args[i] = i < degree - k ? t0 : t1;
+        out[k] = blossom(v, degree, args);
+    }
+    return out;
+}
+
+/// Bracketed Newton: double approximation of the root in [lo,hi] of the increasing (after `sign`) coordinate.
+double newton_root(const Curve& c, Axis axis, double lo, double hi, double sign, double target) {
+    double t = 0.5 * (lo + hi);
+    for (int k = 0; k < 64; ++k) {
+        const double f = (casteljau(c.along(axis).local, c.degree, t) - target) * sign;
+        if (f == 0) return t;
+        (f > 0 ? hi : lo) = t;
+        const double df = derivative_double(c, axis, t) * sign;
+        double next = df > 0 ? t - f / df : lo - 1;
+        if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+        if (std::fabs(next - t) <= budget::kUnitRoundoff * std::fabs(t)) return next;
+        t = next;
+    }
+    return t;
+}
+
+} // namespace
+
+Curve make_curve(int degree, const std::array<IntPoint, 4>& p) {
+    Curve c;
+    c.degree = degree;
+    c.p = p;
+    if (c.degree == 3) reduce_cubic(c);
+    if (c.degree >= 2 && is_collinear(c)) {
+        c.p = {c.first(), c.last(), IntPoint{}, IntPoint{}};
+        c.degree = 1;
+    }
+    c.x = coordinate(c, Axis::X);
+    c.y = coordinate(c, Axis::Y);
+    return c;
+}
+
+bool is_collinear(const Curve& c) {
+    IntPoint far = c.p[0];
+    for (int i = 1; i <= c.degree; ++i) {
+        if (c.p[static_cast<std::size_t>(i)] != c.p[0]) far = c.p[static_cast<std::size_t>(i)];
+    }
+    for (int i = 1; i <= c.degree; ++i) {
+        if (cross(c.p[0], far, c.p[static_cast<std::size_t>(i)]) != 0) return false;
+    }
+    return true;
+}
+
+Interval value_at(const Curve& c, Axis axis, double t) {
+    const Coordinate& k = c.along(axis);
+    const double v = casteljau(k.local, c.degree, t), error = budget::kEvaluationError * k.magnitude;
+    const double sum = static_cast<double>(k.origin) + v;
+    return {widen_down(sum) - error, widen_up(sum) + error};
+}
+
+Interval derivative_over(const Curve& c, Axis axis, const Interval& t) {
+    const Coordinate& k = c.along(axis);
+    const std::array<double, 4> d = blossom_stretch(hodograph(k, c.degree), c.degree - 1, t.lo, t.hi);
+    Interval out(d[0], d[0]);
+    for (int i = 1; i < c.degree; ++i) out = hull(out, Interval(d[i]));
+    const double error = 2 * budget::kEvaluationError * 2 * c.degree * k.magnitude;
+    return {out.lo - error, out.hi + error};
+}
+
+Interval value_over(const Curve& c, Axis axis, const Interval& t) {
+    if (t.lo == t.hi) return value_at(c, axis, t.lo);
+    const double m = t.mid();
+    return value_at(c, axis, m) + derivative_over(c, axis, t) * Interval(widen_down(t.lo - m), widen_up(t.hi - m));
+}
+
+double value_double(const Curve& c, Axis axis, double t) {
+    const Coordinate& k = c.along(axis);
+    return static_cast<double>(k.origin) + casteljau(k.local, c.degree, t);
+}
+
+double local_double(const Curve& c, Axis axis, double t) { return casteljau(c.along(axis).local, c.degree, t); }
+
+double derivative_double(const Curve& c, Axis axis, double t) {
+    return casteljau(hodograph(c.along(axis), c.degree), c.degree - 1, t);
+}
+
+Interval parameter_at(const Curve& c, Axis axis, const Interval& range, bool increasing, double v) {
+    const Coordinate& k = c.along(axis);
+    const double sign = increasing ? 1 : -1, target = v - static_cast<double>(k.origin);
+    const double t = newton_root(c, axis, range.lo, range.hi, sign, target);
+    const double slope = std::fabs(derivative_double(c, axis, t)), noise = 2 * budget::kEvaluationError * (k.magnitude + std::fabs(target));
+    double delta = std::max(2 * budget::kUnitRoundoff * std::fabs(t), slope > 0 ? noise / slope : 0.0);
+    delta = std::max(delta, budget::kUnderflowGuard);
+    const auto bound = [&](double side) {
+        for (double d = delta;; d *= 4) {
+            const double u = t + side * d;
+            if (!(u > range.lo && u < range.hi)) return side < 0 ? range.lo : range.hi;
+            if ((value_at(c, axis, u) - Interval(v)).sign() * sign * side > 0) return u;
+        }
+    };
+    return {bound(-1), bound(1)};
+}
+
+std::array<double, 4> stretch(const Curve& c, Axis axis, double t0, double t1) {
+    return blossom_stretch(c.along(axis).local, c.degree, t0, t1);
+}
+
+} // namespace fetexc

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/geometry/exact.h"
+
+#include <optional>
+
+#include "compiler/geometry/polynomial.h"
+
+namespace fetexc {
+namespace {
+
+/// Closed rational interval.
+struct RationalInterval {
+    mpq_class lo, hi;
+};
+
+Interval to_double(const RationalInterval& v) {
+    // get_d truncates towards zero: one unit each way encloses.
+    return {widen_down(v.lo.get_d()), widen_up(v.hi.get_d())};
+}
+
+Axis other(Axis axis) { return axis == Axis::X ? Axis::Y : Axis::X; }
+
+/// Enclosure of p over [lo,hi]: value in the middle plus a derivative bound times the half width (|t| ≤ 2).
+RationalInterval evaluate_over(const Polynomial& p, const RationalInterval& t) {
+    const mpq_class mid = (t.lo + t.hi) / 2, half = (t.hi - t.lo) / 2;
+    mpq_class bound = 0, power = 1;
+    const mpq_class reach = std::max(mpq_class(abs(t.lo)), mpq_class(abs(t.hi)));
+    for (std::size_t i = 1; i < p.size(); ++i) {
+        bound += abs(p[i]) * static_cast<unsigned long>(i) * power;
+        power *= reach;
+    }
+    const mpq_class v = evaluate(p, mid), w = bound * half;
+    return {v - w, v + w};
+}
+
+/// Parameter of the stretch where the coordinate passes v, to within 2^-bits of the range; clamped to the range.
+RationalInterval bisect(const Stretch& s, const Polynomial& p, bool increasing, const mpq_class& v, int bits) {
+    mpq_class lo(s.range.lo), hi(s.range.hi);
+    for (int k = 0; k < bits; ++k) {
+        const mpq_class mid = (lo + hi) / 2;
+        const bool below = increasing ? evaluate(p, mid) < v : evaluate(p, mid) > v;
+        (below ? lo : hi) = mid;
+    }
+    return {lo, hi};
+}
+
+int compare_at(const Stretch& a, const Stretch& b, Axis level_axis, double level) {
+    const Polynomial al = power_basis(*a.curve, level_axis), bl = power_basis(*b.curve, level_axis);
+    const Polynomial av = power_basis(*a.curve, other(level_axis)), bv = power_basis(*b.curve, other(level_axis));
+    const bool a_up = level_axis == Axis::Y ? a.y_increasing : a.x_increasing;
+    const bool b_up = level_axis == Axis::Y ? b.y_increasing : b.x_increasing;
+    for (int bits = budget::kRefineBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
+        const RationalInterval va = evaluate_over(av, bisect(a, al, a_up, mpq_class(level), bits));
+        const RationalInterval vb = evaluate_over(bv, bisect(b, bl, b_up, mpq_class(level), bits));
+        if (va.hi < vb.lo) return -1;
+        if (va.lo > vb.hi) return 1;
+    }
+    return 0;
+}
+
+mpz_class leading(const Curve& c, std::size_t i, bool use_x) {
+    const Polynomial p = power_basis(c, use_x ? Axis::X : Axis::Y);
+    return i < p.size() ? p[i] : mpz_class(0);
+}
+
+/// Power coefficients (x_i, y_i), i = 0…3, zero beyond the degree.
+struct Vectors {
+    std::array<mpz_class, 4> x, y;
+    int degree = 0;
+    explicit Vectors(const Curve& c) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            x[i] = leading(c, i, true);
+            y[i] = leading(c, i, false);
+            if (x[i] != 0 || y[i] != 0) degree = static_cast<int>(i);
+        }
+    }
+    [[nodiscard]] mpz_class cross(int i, int j) const { return x[i] * y[j] - y[i] * x[j]; }
+};
+
+mpz_class cross(const Vectors& a, int i, const Vectors& b, int j) { return a.x[i] * b.y[j] - a.y[i] * b.x[j]; }
+
+/// alpha from cross products with the common leading direction; none when no alpha can exist.
+std::optional<mpq_class> support_scale(const Vectors& a, const Vectors& b, const mpq_class& ratio) {
+    const int d = b.degree;
+    if (d == 2) {
+        const mpz_class cb = b.cross(2, 1), ca = cross(b, 2, a, 1);
+        if (cb == 0 || ca == 0) return {};
+        mpq_class alpha(ca, cb);
+        alpha.canonicalize();
+        return alpha * alpha == ratio ? std::optional(alpha) : std::nullopt;
+    }
+    mpq_class alpha;
+    if (const mpz_class cb = b.cross(3, 2); cb != 0) {
+        const mpz_class ca = cross(b, 3, a, 2);
+        if (ca == 0) return {};
+        mpq_class squared(ca, cb); // = alpha²
+        squared.canonicalize();
+        alpha = ratio / squared;
+    } else {
+        const mpz_class c1 = b.cross(3, 1), a1 = cross(b, 3, a, 1);
+        if (c1 == 0 || a1 == 0 || cross(b, 3, a, 2) != 0) return {};
+        alpha = mpq_class(a1, c1);
+        alpha.canonicalize();
+    }
+    return alpha * alpha * alpha == ratio ? std::optional(alpha) : std::nullopt;
+}
+
+/// B(alpha·s + beta) has exactly A's coefficients.
+bool maps_onto(const std::array<mpz_class, 4>& a, const std::array<mpz_class, 4>& b, const mpq_class& alpha, const mpq_class& beta) {
+    const mpq_class c0 = b[0], c1 = b[1], c2 = b[2], c3 = b[3];
+    const mpq_class e0 = c0 + beta * (c1 + beta * (c2 + beta * c3));
+    const mpq_class e1 = alpha * (c1 + beta * (2 * c2 + 3 * beta * c3));
+    const mpq_class e2 = alpha * alpha * (c2 + 3 * beta * c3);
+    const mpq_class e3 = alpha * alpha * alpha * c3;
+    return e0 == a[0] && e1 == a[1] && e2 == a[2] && e3 == a[3];
+}
+
+Interval enclose(const mpq_class& v) { return to_double({v, v}); }
+
+} // namespace
+
+int implicit_sign(const Curve& c, IntPoint p) {
+    Curve point;
+    point.degree = 1;
+    point.p = {p, p, IntPoint{}, IntPoint{}};
+    const Polynomial r = eliminate(point, c);
+    return r.empty() ? 0 : sgn(r[0]);
+}
+
+bool same_support(const Curve& a, const Curve& b, SupportMap& map) {
+    const Vectors va(a), vb(b);
+    const int d = va.degree;
+    if (d != vb.degree || d < 2 || cross(va, d, vb, d) != 0) return false;
+    const bool use_x = vb.x[d] != 0;
+    mpq_class ratio(use_x ? va.x[d] : va.y[d], use_x ? vb.x[d] : vb.y[d]);
+    ratio.canonicalize();
+    const std::optional<mpq_class> alpha = support_scale(va, vb, ratio);
+    if (!alpha) return false;
+    const mpq_class power = d == 2 ? *alpha : *alpha * *alpha;
+    const mpq_class a1(use_x ? va.x[d - 1] : va.y[d - 1]), b1(use_x ? vb.x[d - 1] : vb.y[d - 1]), bd(use_x ? vb.x[d] : vb.y[d]);
+    const mpq_class beta = (a1 / power - b1) / (d * bd);
+    if (!maps_onto(va.x, vb.x, *alpha, beta) || !maps_onto(va.y, vb.y, *alpha, beta)) return false;
+    map = {alpha->get_d(), beta.get_d(), enclose(beta), enclose(*alpha + beta)};
+    return true;
+}
+
+ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits) {
+    const Polynomial r = eliminate(*a.curve, *b.curve);
+    if (r.empty()) return ExactOutcome::CommonComponent;
+    const Polynomial ax = power_basis(*a.curve, Axis::X), ay = power_basis(*a.curve, Axis::Y);
+    // B as a graph over the axis along which it runs farther.
+    const bool over_y = std::fabs(value_double(*b.curve, Axis::Y, b.range.hi) - value_double(*b.curve, Axis::Y, b.range.lo)) >=
+                        std::fabs(value_double(*b.curve, Axis::X, b.range.hi) - value_double(*b.curve, Axis::X, b.range.lo));
+    const Axis level = over_y ? Axis::Y : Axis::X;
+    const Polynomial bl = power_basis(*b.curve, level), bv = power_basis(*b.curve, other(level));
+    const bool increasing = over_y ? b.y_increasing : b.x_increasing;
+    const mpq_class slack(mpz_class(1), mpz_class(1) << budget::kSameBranchBits);
+    for (const auto& [lo, hi] : isolate_roots(r, a.range.lo, a.range.hi, 2 * budget::kRefineBits)) {
+        const RationalInterval s{lo, hi};
+        const RationalInterval at = evaluate_over(over_y ? ay : ax, s), value = evaluate_over(over_y ? ax : ay, s);
+        const RationalInterval t{bisect(b, bl, increasing, increasing ? at.lo : at.hi, 2 * budget::kRefineBits).lo,
+                                 bisect(b, bl, increasing, increasing ? at.hi : at.lo, 2 * budget::kRefineBits).hi};
+        const RationalInterval reached = evaluate_over(bl, t), crossing = evaluate_over(bv, t);
+        if (reached.lo > at.hi + slack || reached.hi < at.lo - slack) continue; // beyond an end of the stretch
+        if (crossing.lo > value.hi + slack || crossing.hi < value.lo - slack) continue; // another branch
+        hits.push_back({to_double(s), to_double(t)});
+    }
+    return ExactOutcome::Done;
+}
+
+int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y) { return compare_at(a, b, Axis::Y, y); }
+int compare_y_at_x_exact(const Stretch& a, const Stretch& b, double x) { return compare_at(a, b, Axis::X, x); }
+
+} // namespace fetexc

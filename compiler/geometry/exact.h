@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Exact decisions, for what the floating-point certificates can't decide. Slow (1 µs … 1 ms); callers count the calls.
+/// Integers and rationals are GMP's, root isolation is CGAL's Algebraic_kernel_d_1. CGAL stays behind this header.
+#pragma once
+
+#include <vector>
+
+#include "compiler/geometry/curve.h"
+
+namespace fetexc {
+
+/// A monotone stretch of a curve: the parameter range is an outer enclosure of [t0,t1].
+struct Stretch {
+    const Curve* curve = nullptr;
+    Interval range;
+    bool x_increasing = true, y_increasing = true; ///< with growing t
+};
+
+/// Sign of the implicit form of the curve's algebraic curve at an integer point: 0 iff the point lies on it (Bezout determinant).
+int implicit_sign(const Curve& c, IntPoint p);
+
+/// A(s) = B(alpha·s + beta) for rationals alpha ≠ 0, beta: the curves run on one algebraic curve with one parametrisation.
+struct SupportMap {
+    double alpha = 0, beta = 0;            ///< rounded; for ordering only
+    Interval start, end;                   ///< enclosures of B's parameter at A's ends
+};
+/// Exact; true only for degree ≥ 2 (lines are matched by planar/arcs).
+bool same_support(const Curve& a, const Curve& b, SupportMap& map);
+
+struct ExactHit {
+    Interval s, t; ///< parameters on a and on b
+};
+
+enum class ExactOutcome { Done, CommonComponent };
+
+/// All common points of two monotone stretches whose algebraic curves differ; parameters enclosed to kRefineBits.
+ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits);
+
+/// Sign of x_a(y) − x_b(y), by bisection in rationals until the two separate; 0 when they don't up to kRefineBitsLimit.
+int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y);
+/// The same along the other axis: sign of y_a(x) − y_b(x).
+int compare_y_at_x_exact(const Stretch& a, const Stretch& b, double x);
+
+} // namespace fetexc

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Certified intersection of two monotone stretches (DESIGN §5.4): the floating-point filter in front of geometry/exact.h.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compiler/geometry/exact.h"
+
+namespace fetexc {
+
+/// A common point: enclosures of its parameters on a and b, each containing exactly one.
+struct Contact {
+    Interval s, t;
+};
+
+enum class PairOutcome { Certified, Undecided };
+
+/// Appends every common point that is not in `known` (shared end points and end points lying on the other curve, found exactly by the
+/// caller). Certified: the list is complete, each entry proved to exist (Krawczyk) and to be alone (tangent cones). Undecided: tangent,
+/// overlapping or too close to tell; nothing is appended and exact.h decides.
+PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known, std::vector<Contact>& found);
+
+/// Exact: the integer point lies on the stretch's curve and within the stretch; gives its parameter.
+std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p);
+
+} // namespace fetexc

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/geometry/monotone.h"
+
+#include <gmpxx.h>
+
+namespace fetexc {
+namespace {
+
+using Int128 = __int128;
+
+int sign_of(Int128 v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
+
+/// q(t) = a·t² + 2b·t + c: the derivative up to a positive factor, exact.
+struct Derivative {
+    std::int64_t a = 0, b = 0, c = 0;
+};
+
+Derivative derivative(const Curve& curve, Axis axis) {
+    const auto p = [&](std::size_t i) { return axis == Axis::X ? curve.p[i].x : curve.p[i].y; };
+    if (curve.degree < 2) return {};
+    const std::int64_t d0 = p(1) - p(0), d1 = p(2) - p(1);
+    // Degree 2: q = d0 + t(d1 − d0); doubled so that 2b is exact.
+    if (curve.degree == 2) return {0, d1 - d0, 2 * d0};
+    const std::int64_t d2 = p(3) - p(2);
+    return {d0 - 2 * d1 + d2, d1 - d0, d0};
+}
+
+int exact_sign(const Derivative& q, double t) {
+    const mpq_class u(t);
+    return sgn(mpq_class((u * static_cast<long>(q.a) + 2 * static_cast<long>(q.b)) * u + static_cast<long>(q.c)));
+}
+
+/// Smallest enclosure around an approximate root whose ends show the sign change; none when the change can't be seen in doubles.
+bool enclose(const Derivative& q, double root, std::vector<Interval>& out) {
+    for (double delta = budget::kUnitRoundoff; delta < 1; delta *= 4) {
+        const double lo = std::max(0.0, root - delta), hi = std::min(1.0, root + delta);
+        const int s0 = exact_sign(q, lo), s1 = exact_sign(q, hi);
+        if (s0 != 0 && s1 != 0 && s0 != s1) {
+            out.emplace_back(lo, hi);
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Approximate roots in (0,1); their number is exact.
+std::vector<double> approximate_roots(const Derivative& q) {
+    const long double a = q.a, b = q.b, c = q.c;
+    const int s0 = sign_of(q.c), s1 = sign_of(static_cast<Int128>(q.a) + 2 * static_cast<Int128>(q.b) + q.c);
+    if (q.a == 0) return s0 * s1 < 0 ? std::vector{static_cast<double>(-c / (2 * b))} : std::vector<double>{};
+    if (s0 == 0) {
+        const Int128 at1 = static_cast<Int128>(q.a) + 2 * static_cast<Int128>(q.b);
+        return sign_of(q.b) * sign_of(at1) < 0 ? std::vector{static_cast<double>(-2 * b / a)} : std::vector<double>{};
+    }
+    if (s1 == 0) {
+        return sign_of(q.c) * sign_of(static_cast<Int128>(q.a) - q.c) > 0 ? std::vector{static_cast<double>(c / a)} : std::vector<double>{};
+    }
+    const Int128 discriminant = static_cast<Int128>(q.b) * q.b - static_cast<Int128>(q.a) * q.c;
+    if (discriminant <= 0) return {};
+    const long double root = std::sqrt(static_cast<long double>(discriminant));
+    const long double w = -(b + (b > 0 ? root : -root)); // citardauq: no cancellation
+    const double r1 = static_cast<double>(w / a), r2 = static_cast<double>(c / w);
+    if (s0 * s1 < 0) return {r1 > 0 && r1 < 1 ? r1 : r2};
+    const bool vertex_inside = sign_of(q.b) * sign_of(static_cast<Int128>(q.a) + q.b) < 0;
+    if (sign_of(q.a) != s0 || !vertex_inside) return {};
+    return {std::min(r1, r2), std::max(r1, r2)};
+}
+
+void add_extrema(const Curve& c, Axis axis, std::vector<Interval>& out) {
+    const Derivative q = derivative(c, axis);
+    std::vector<Interval> found;
+    for (double root : approximate_roots(q)) enclose(q, root, found);
+    if (found.size() == 2 && found[0].overlaps(found[1])) return; // a wiggle below one ulp
+    out.insert(out.end(), found.begin(), found.end());
+}
+
+} // namespace
+
+std::vector<Interval> extrema(const Curve& c) {
+    std::vector<Interval> all;
+    if (c.degree < 2) return all;
+    add_extrema(c, Axis::X, all);
+    add_extrema(c, Axis::Y, all);
+    std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.mid() < b.mid(); });
+    std::vector<Interval> out;
+    for (const Interval& t : all) {
+        if (!out.empty() && out.back().overlaps(t)) out.back() = hull(out.back(), t);
+        else out.push_back(t);
+    }
+    return out;
+}
+
+} // namespace fetexc

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Dense integer polynomials (GMP), just enough for resultants; used inside geometry/ only.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <vector>
+
+#include "compiler/geometry/curve.h"
+
+namespace fetexc {
+
+using Polynomial = std::vector<mpz_class>; ///< coefficient of t^i at index i; empty = 0
+
+Polynomial trimmed(Polynomial p);
+Polynomial operator+(const Polynomial& a, const Polynomial& b);
+Polynomial operator-(const Polynomial& a, const Polynomial& b);
+Polynomial operator*(const Polynomial& a, const Polynomial& b);
+
+mpz_class to_mpz(std::int64_t v);
+
+/// Power basis of one coordinate (absolute), trimmed.
+Polynomial power_basis(const Curve& c, Axis axis);
+
+/// R(s): vanishes exactly where A(s) lies on the algebraic curve of B (Bezout resultant). Empty when A lies on it entirely.
+Polynomial eliminate(const Curve& a, const Curve& b);
+
+mpq_class evaluate(const Polynomial& p, const mpq_class& t);
+
+/// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's algebraic kernel.
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, double lo, double hi, int bits);
+
+} // namespace fetexc

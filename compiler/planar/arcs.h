@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Prepared input of the planar map (DESIGN §5.1): monotone arcs, each stretch of plane curve once, with what crossing it changes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiler/compile.h"
+#include "compiler/geometry/exact.h"
+#include "compiler/planar/grid.h"
+#include "compiler/scene/scene.h"
+
+namespace fetexc {
+
+/// Following the arc with growing t, the shape's contour runs `winding` times along (negative: against).
+struct Contribution {
+    std::uint32_t shape = 0;
+    std::int32_t winding = 0;
+};
+
+/// A point of the planar map, in planar space. Integral points are exact; others are enclosed.
+struct Vertex {
+    Interval x, y;
+    bool integral = false;
+    IntPoint point;
+};
+
+/// x- and y-monotone stretch between two vertices.
+struct Arc {
+    std::uint32_t curve = 0;
+    Interval t0, t1; ///< enclosures of the parameters of v0, v1; t0 < t1
+    std::uint32_t v0 = 0, v1 = 0;
+    bool x_increasing = true, y_increasing = true;
+    std::uint32_t first_contribution = 0, contributions = 0;
+};
+
+/// Two curves that turned out to share their algebraic curve (partial overlap): indices into ArcSet::curves.
+struct SharedSupport {
+    std::uint32_t a = 0, b = 0;
+    friend auto operator<=>(const SharedSupport&, const SharedSupport&) = default;
+};
+
+struct ArcSet {
+    std::vector<Curve> curves;
+    std::vector<Vertex> vertices;
+    std::vector<Arc> arcs;
+    std::vector<Contribution> contributions;
+
+    [[nodiscard]] Stretch stretch_of(const Arc& a) const {
+        return {&curves[a.curve], {a.t0.lo, a.t1.hi}, a.x_increasing, a.y_increasing};
+    }
+    [[nodiscard]] std::span<const Contribution> contributions_of(const Arc& a) const {
+        return std::span(contributions).subspan(a.first_contribution, a.contributions);
+    }
+};
+
+/// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges identical,
+/// reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of curves found by an earlier
+/// pass over the same scene; their common stretches become one arc.
+ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats);
+
+} // namespace fetexc

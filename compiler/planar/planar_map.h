@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The arrangement cut at the texel grid (DESIGN §5.2): for each texel the sub-edges inside it, and the winding numbers at its corner.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "compiler/planar/arrangement.h"
+
+namespace fetexc {
+
+/// Position in half steps of the grid: even 2i = on grid line i, odd 2i+1 = between lines i and i+1; −1 and 2n+1 outside the canvas.
+using HalfStep = std::int32_t;
+
+/// A vertex or a crossing with a grid line. Each is one object: neighbouring texels share it, so they agree by construction.
+/// A node whose enclosure holds a grid line lies on it (x or y is then exactly the line's).
+struct GridNode {
+    double x = 0, y = 0; ///< planar space
+    HalfStep hx = 0, hy = 0;
+};
+
+/// Part of an edge inside one texel; t grows from n0 to n1. Never along a grid line.
+struct SubEdge {
+    std::uint32_t edge = 0;
+    Interval range; ///< outer parameter enclosure
+    std::uint32_t n0 = 0, n1 = 0;
+};
+
+/// Winding change when stepping right over a grid line (or, for line 0, from far left onto the canvas) just below a row's top.
+struct RowStep {
+    std::uint32_t row = 0, line = 0, arc = 0;
+    std::int32_t sign = 1;
+};
+
+using Windings = std::vector<Contribution>; ///< ascending shapes, no zeros
+
+void add_winding(Windings& w, std::uint32_t shape, std::int32_t change);
+
+class PlanarMap {
+  public:
+    static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats);
+
+    [[nodiscard]] const Grid& grid() const { return grid_; }
+    [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
+    [[nodiscard]] const GridNode& node(std::uint32_t n) const { return nodes_[n]; }
+    [[nodiscard]] std::span<const SubEdge> sub_edges(std::uint32_t i, std::uint32_t j) const;
+    [[nodiscard]] Stretch stretch_of(const SubEdge& s) const;
+    [[nodiscard]] std::span<const Contribution> contributions_of(const SubEdge& s) const;
+
+    /// Runs along row j from left to right; `visit(i, windings)` gets the winding numbers at the texel's corner (X_i + 0, Y_j + 0), left
+    /// of everything inside the texel; i = width is the right border, seen from inside. For j = height: along the bottom border, seen
+    /// from inside (Y_j − 0).
+    template <class Visit> void along_row(std::uint32_t j, Visit&& visit) const {
+        Windings w;
+        const bool bottom = j == grid_.height;
+        std::span<const RowStep> steps = steps_of(j);
+        const auto cross_line = [&](std::uint32_t line) {
+            for (; !steps.empty() && steps.front().line == line; steps = steps.subspan(1)) apply(w, steps.front());
+        };
+        cross_line(0);
+        for (std::uint32_t i = 0;; ++i) {
+            visit(i, static_cast<const Windings&>(w));
+            if (i == grid_.width) return;
+            for (const SubEdge& s : sub_edges(i, bottom ? j - 1 : j)) cross_row_line(w, s, 2 * static_cast<HalfStep>(j));
+            if (i + 1 < grid_.width) cross_line(i + 1);
+        }
+    }
+
+    /// +1: t grows in sweep direction (downwards, rightwards when level), else −1.
+    [[nodiscard]] int sweep_sign(const SubEdge& s) const;
+
+  private:
+    class Builder;
+    [[nodiscard]] std::span<const RowStep> steps_of(std::uint32_t row) const;
+    void apply(Windings& w, const RowStep& step) const;
+    void cross_row_line(Windings& w, const SubEdge& s, HalfStep line) const;
+
+    Grid grid_;
+    Arrangement arrangement_;
+    std::vector<GridNode> nodes_;
+    std::vector<SubEdge> sub_edges_;
+    std::vector<std::uint32_t> texel_start_; ///< CSR over texels, row-major
+    std::vector<RowStep> steps_;             ///< sorted by row, line
+    std::vector<std::uint32_t> step_start_;  ///< per row, height + 2 entries
+};
+
+/// Order of the sweep: down, then right.
+inline bool before(const GridNode& a, const GridNode& b) {
+    if (a.hy != b.hy) return a.hy < b.hy;
+    if (a.y != b.y) return a.y < b.y;
+    if (a.hx != b.hx) return a.hx < b.hx;
+    return a.x < b.x;
+}
+
+} // namespace fetexc

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/planar/sweep.h"
+
+#include <algorithm>
+#include <array>
+
+namespace fetexc {
+
+bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes, std::span<const SweepEdge> edges,
+                std::span<const Cut> cuts, TexelFrame frame, SweepResult& out) {
+    sub_edges_ = sub_edges, nodes_ = nodes, edges_ = edges, frame_ = frame, out_ = &out;
+    out = {};
+    prepare(nodes.size());
+    gaps_.push_back(open_gap(new_face(), 0, kNone));
+    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
+        if (!seen_first_slab_ && node(k).hy > frame.top) rank_top_line();
+        if (!cuts.empty() && cuts.front().first == k) {
+            if (!cut(cuts.front())) return false;
+            k = cuts.front().last - 1;
+            cuts = cuts.subspan(1);
+        } else if (!at_node(k)) {
+            return false;
+        }
+    }
+    if (!seen_first_slab_) rank_top_line();
+    for (const Gap& g : gaps_) close_gap(g, kNone);
+    return status_.empty() && cuts.empty();
+}
+
+void Sweep::prepare(std::size_t nodes) {
+    status_.clear(), gaps_.clear(), band_ = 0, seen_first_slab_ = false;
+    portion_.assign(edges_.size(), 0);
+    level_on_cut_.assign(edges_.size(), false);
+    in_count_.assign(nodes, 0);
+    first_out_.assign(nodes + 1, 0);
+    for (const SweepEdge& e : edges_) ++first_out_[e.top + 1], ++in_count_[e.bottom];
+    for (std::size_t k = 1; k < first_out_.size(); ++k) first_out_[k] += first_out_[k - 1];
+    out_edges_.resize(edges_.size());
+    std::vector<std::uint32_t> next(first_out_.begin(), first_out_.end() - 1);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) out_edges_[next[edges_[e].top]++] = e;
+}
+
+Sweep::Side Sweep::side_of(std::uint32_t k) const {
+    const GridNode& n = node(k);
+    if (n.hy == frame_.top) return Side::Top;
+    if (n.hy == frame_.top + 2) return Side::Bottom;
+    if (n.hx == frame_.left) return Side::Left;
+    return n.hx == frame_.left + 2 ? Side::Right : Side::Interior;
+}
+
+bool Sweep::at_node(std::uint32_t k) {
+    collect_outgoing(k);
+    std::size_t from = 0;
+    if (in_count_[k] > 0) {
+        if (!find_incoming(k, from)) return false;
+    } else if (!outgoing_.empty()) {
+        from = locate(k, outgoing_.front());
+    } else {
+        return true;
+    }
+    replace(k, from, in_count_[k], side_of(k));
+    return true;
+}
+
+/// A band line: what reaches it ends there, what crosses it starts anew, what leaves it starts in the next band.
+bool Sweep::cut(Cut range) {
+    for (std::uint32_t k = range.first; k < range.last; ++k) {
+        for (std::uint32_t i = first_out_[k]; i < first_out_[k + 1]; ++i) {
+            const SweepEdge& e = edges_[out_edges_[i]];
+            if (e.bottom >= range.last) continue;
+            level_on_cut_[out_edges_[i]] = true;
+            --in_count_[e.bottom];
+        }
+    }
+    outgoing_.clear();
+    for (std::uint32_t k = range.first; k < range.last; ++k) {
+        std::size_t from = 0;
+        if (in_count_[k] == 0) continue;
+        if (!find_incoming(k, from)) return false;
+        replace(k, from, in_count_[k], Side::Bottom);
+    }
+    next_band();
+    for (std::uint32_t k = range.first; k < range.last; ++k) {
+        collect_outgoing(k);
+        if (!outgoing_.empty()) replace(k, locate(k, outgoing_.front()), 0, Side::Top);
+    }
+    rank_top_line();
+    return true;
+}
+
+/// The band's top line is complete: what crosses it now starts there.
+void Sweep::rank_top_line() {
+    if (!seen_first_slab_) out_->first_face = gaps_.front().face;
+    seen_first_slab_ = true;
+    for (std::size_t i = 0; i < status_.size(); ++i) out_->portions[portion_[status_[i]]].rank = static_cast<std::uint32_t>(i);
+}
+
+void Sweep::collect_outgoing(std::uint32_t k) {
+    outgoing_.clear();
+    for (std::uint32_t i = first_out_[k]; i < first_out_[k + 1]; ++i) {
+        if (!level_on_cut_[out_edges_[i]]) outgoing_.push_back(out_edges_[i]);
+    }
+    for (std::size_t i = 1; i < outgoing_.size(); ++i) {
+        for (std::size_t p = i; p > 0 && left_of(outgoing_[p], outgoing_[p - 1]); --p) std::swap(outgoing_[p], outgoing_[p - 1]);
+    }
+}
+
+/// The edges that end at node k must be neighbours in the status.
+bool Sweep::find_incoming(std::uint32_t k, std::size_t& from) const {
+    from = 0;
+    while (from < status_.size() && edges_[status_[from]].bottom != k) ++from;
+    for (std::size_t i = from; i < from + in_count_[k]; ++i) {
+        if (i >= status_.size() || edges_[status_[i]].bottom != k) return false;
+    }
+    return true;
+}
+
+/// Position of an edge that starts at node k among the edges in the status.
+std::size_t Sweep::locate(std::uint32_t k, std::uint32_t edge) {
+    if (node(k).hx == frame_.left) return 0;
+    if (node(k).hx == frame_.left + 2) return status_.size();
+    std::size_t lo = 0, hi = status_.size();
+    while (lo < hi) {
+        const std::size_t mid = (lo + hi) / 2;
+        if (left_of(edge, status_[mid])) hi = mid;
+        else lo = mid + 1;
+    }
+    return lo;
+}
+
+/// The incoming edges [from, from+count) end at node k, its outgoing edges take their place. On a side of the band the faces left and
+/// right of the node aren't connected around it.
+void Sweep::replace(std::uint32_t k, std::size_t from, std::size_t count, Side side) {
+    const std::size_t fresh = outgoing_.size();
+    const std::uint32_t left = gaps_[from].face, right = gaps_[from + count].face;
+    for (std::size_t i = 0; i <= count; ++i) close_gap(gaps_[from + i], k);
+    const auto position = static_cast<std::ptrdiff_t>(from), removed = static_cast<std::ptrdiff_t>(count);
+    status_.erase(status_.begin() + position, status_.begin() + position + removed);
+    status_.insert(status_.begin() + position, outgoing_.begin(), outgoing_.end());
+    gaps_.erase(gaps_.begin() + position, gaps_.begin() + position + removed + 1);
+    gaps_.insert(gaps_.begin() + position, fresh + 1, Gap{});
+    if (fresh == 0) {
+        if (side == Side::Interior) unite(left, right);
+        gaps_[from] = open_gap(side == Side::Right ? left : right, from, k);
+        return;
+    }
+    for (std::size_t i = 0; i <= fresh; ++i) {
+        std::uint32_t face = 0;
+        if (i == 0) face = side == Side::Left ? new_face() : left;
+        else if (i == fresh) face = side == Side::Top || side == Side::Right ? new_face() : right;
+        else face = new_face();
+        gaps_[from + i] = open_gap(face, from + i, k);
+    }
+    for (std::size_t i = 0; i < fresh; ++i) {
+        add_portion(outgoing_[i], false);
+        Portion& p = out_->portions.back();
+        p.left = gaps_[from + i].face, p.right = gaps_[from + i + 1].face;
+    }
+}
+
+void Sweep::next_band() {
+    ++band_;
+    for (std::uint32_t e : status_) out_->portions[portion_[e]].to_cut = true;
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+        close_gap(gaps_[g], kNone);
+        gaps_[g] = open_gap(new_face(), g, kNone);
+    }
+    for (std::size_t i = 0; i < status_.size(); ++i) {
+        add_portion(status_[i], true);
+        Portion& p = out_->portions.back();
+        p.left = gaps_[i].face, p.right = gaps_[i + 1].face;
+    }
+}
+
+/// e, which starts at or below f's top, runs left of f where both run. They don't cross, so one common level decides.
+bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
+    const double lo = std::max(node(edges_[e].top).y, node(edges_[f].top).y);
+    const double hi = std::min(node(edges_[e].bottom).y, node(edges_[f].bottom).y);
+    if (!(lo < hi)) return left_of_level(e, f);
+    const Stretch a = map_.stretch_of(sub_edges_[edges_[e].sub]), b = map_.stretch_of(sub_edges_[edges_[f].sub]);
+    constexpr std::array<double, 3> levels{0.5, 0.9375, 0.25};
+    const auto x_at = [](const Stretch& s, double y) {
+        return value_over(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y));
+    };
+    for (double w : levels) {
+        const double y = lo + w * (hi - lo);
+        if (const int c = compare(x_at(a, y), x_at(b, y)); c != 0) return c < 0;
+    }
+    ++stats_.exact_comparisons;
+    return compare_x_at_y_exact(a, b, lo + 0.5 * (hi - lo)) < 0;
+}
+
+/// One of the two is level (or no taller than the resolution of a double).
+bool Sweep::left_of_level(std::uint32_t e, std::uint32_t f) const {
+    const GridNode &et = node(edges_[e].top), &eb = node(edges_[e].bottom), &ft = node(edges_[f].top), &fb = node(edges_[f].bottom);
+    const bool e_level = et.y == eb.y, f_level = ft.y == fb.y;
+    if (edges_[e].top == edges_[f].top) return f_level && !e_level; // level edges leave to the right of all others
+    const Stretch s = map_.stretch_of(sub_edges_[edges_[f].sub]);
+    if (f_level) return et.x < std::min(ft.x, fb.x);
+    const Interval x = value_over(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, et.y));
+    return et.x < x.mid();
+}
+
+std::uint32_t Sweep::new_face() {
+    out_->faces.push_back(static_cast<std::uint32_t>(out_->faces.size()));
+    return out_->faces.back();
+}
+
+Sweep::Gap Sweep::open_gap(std::uint32_t face, std::size_t position, std::uint32_t top_node) {
+    const std::uint32_t left = position == 0 ? kNone : status_[position - 1];
+    const std::uint32_t right = position == status_.size() ? kNone : status_[position];
+    out_->trapezoids.push_back({left, right, top_node, kNone, face});
+    return {face, static_cast<std::uint32_t>(out_->trapezoids.size() - 1)};
+}
+
+void Sweep::close_gap(const Gap& gap, std::uint32_t bottom_node) { out_->trapezoids[gap.trapezoid].bottom_node = bottom_node; }
+
+void Sweep::unite(std::uint32_t a, std::uint32_t b) {
+    a = out_->face(a), b = out_->face(b);
+    out_->faces[std::max(a, b)] = std::min(a, b);
+}
+
+void Sweep::add_portion(std::uint32_t edge, bool from_cut) {
+    portion_[edge] = static_cast<std::uint32_t>(out_->portions.size());
+    out_->portions.push_back({edge, band_, 0, 0, from_cut, false});
+}
+
+} // namespace fetexc

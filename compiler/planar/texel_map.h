@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One texel of the planar map, finished: faces with their visible results (DESIGN §5.5–§5.7).
+#pragma once
+
+#include <vector>
+
+#include "compiler/planar/sweep.h"
+#include "compiler/scene/compositor.h"
+
+namespace fetexc {
+
+struct TexelMap {
+    std::uint32_t i = 0, j = 0;
+    TexelFrame frame;
+    std::span<const SubEdge> sub_edges;
+    std::vector<std::uint32_t> nodes; ///< map nodes, in sweep order
+    std::vector<SweepEdge> edges;
+    SweepResult sweep;
+    std::vector<ResultId> results; ///< per face id (same for united faces)
+
+    [[nodiscard]] ResultId left_result(const Portion& p) const { return results[p.left]; }
+    [[nodiscard]] ResultId right_result(const Portion& p) const { return results[p.right]; }
+};
+
+/// Winding numbers → visible result; remembers the last answer, because neighbours mostly ask the same.
+class ResultLookup {
+  public:
+    ResultLookup(const Scene& scene, Compositor& compositor) : scene_(scene), compositor_(compositor) {}
+    ResultId operator()(const Windings& w);
+
+  private:
+    const Scene& scene_;
+    Compositor& compositor_;
+    std::vector<std::uint32_t> inside_, last_inside_;
+    ResultId last_ = 0;
+    bool any_ = false;
+};
+
+class TexelMapper {
+  public:
+    TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats)
+        : map_(map), stats_(stats), sweep_(map, stats), lookup_(scene, compositor) {}
+
+    /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the caller).
+    bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
+
+    /// Nodes of a set of sub-edges in sweep order, and the edges between them.
+    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& nodes,
+                 std::vector<SweepEdge>& edges) const;
+
+    Sweep& sweep() { return sweep_; }
+    ResultLookup& lookup() { return lookup_; }
+
+  private:
+    bool assign_results(const Windings& corner, TexelMap& out);
+
+    const PlanarMap& map_;
+    PlanarStats& stats_;
+    Sweep sweep_;
+    ResultLookup lookup_;
+    std::vector<std::uint32_t> all_;
+};
+
+} // namespace fetexc
