@@ -24,8 +24,9 @@ double backtrack(const std::array<double, 4>& c, std::uint32_t degree) {
         return c[0] * s * s * s + 3 * (c[1] * s * s * t + c[2] * s * t * t) + c[3] * t * t * t;
     };
     // derivative / degree = a t² + 2 b t + d0
-    const double d0 = c[1] - c[0], d1 = c[2] - c[1], d2 = degree == 3 ? c[3] - c[2] : 2 * d1 - d0;
-    const double a = d0 - 2 * d1 + d2, b = d1 - d0, discriminant = b * b - a * d0;
+    const double d0 = c[1] - c[0], d1 = c[2] - c[1];
+    const double a = degree == 3 ? d0 - 2 * d1 + (c[3] - c[2]) : 0.0, b = degree == 3 ? d1 - d0 : 0.5 * (d1 - d0);
+    const double discriminant = b * b - a * d0;
     const double end = c[degree];
     double previous = c[0], variation = 0;
     if (discriminant > 0) {
