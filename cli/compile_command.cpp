@@ -50,36 +50,56 @@ void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::st
     }
 }
 
-Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
+struct Compiled {
+    LoadedScene loaded;
+    FbtBuild build;
+};
+
+/// Front end and compiler; what they have to say is appended to diagnostics, also on error.
+Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& options,
+                                  std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
     const std::uint32_t texels = std::max({options.size.longer, options.size.width, options.size.height});
-    auto loaded = load_scene(job.input, options.scene, texels);
+    auto loaded = load_scene(job.input, options.scene, texels, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    auto built = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads}, progress.sink());
-    if (!built) return built.error();
+    auto build = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads}, progress.sink());
+    if (!build) return build.error();
+    const std::vector<Diagnostic>& found = build.value().report.diagnostics;
+    diagnostics.insert(diagnostics.end(), found.begin(), found.end());
+    return Compiled{std::move(loaded).value(), std::move(build).value()};
+}
+
+CompileOutcome outcome_of(const Job& job, const fetex::FbtTexture& fbt, CompileReport report) {
+    CompileOutcome outcome;
+    outcome.input = job.input;
+    outcome.output = job.output;
+    outcome.width = fbt.width;
+    outcome.height = fbt.height;
+    outcome.apron = fbt.apron;
+    outcome.gpu_bytes = 4 * (fbt.texels.size() + fbt.records.size());
+    outcome.traits = fbt.traits;
+    outcome.report = std::move(report);
+    return outcome;
+}
+
+Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& options,
+                                   std::vector<Diagnostic>& diagnostics) {
+    const auto start = std::chrono::steady_clock::now();
+    auto compiled = load_and_compile(job, options, diagnostics);
+    if (!compiled) return compiled.error();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
 
     fetex::FetexFile file;
-    file.fbt = std::move(built.value().texture);
-    file.metadata = metadata_for(loaded.value(), options, *file.fbt);
+    file.fbt = std::move(compiled.value().build.texture);
+    file.metadata = metadata_for(compiled.value().loaded, options, *file.fbt);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
-    CompileOutcome outcome{job.input,
-                           job.output,
-                           file.fbt->width,
-                           file.fbt->height,
-                           file.fbt->apron,
-                           bytes.size(),
-                           0,
-                           file.fbt->traits,
-                           std::move(built.value().report),
-                           elapsed.count()};
-    outcome.gpu_bytes = 4 * (file.fbt->texels.size() + file.fbt->records.size());
-    std::vector<Diagnostic>& all = outcome.report.diagnostics;
-    all.insert(all.begin(), loaded.value().diagnostics.begin(), loaded.value().diagnostics.end());
+    CompileOutcome outcome = outcome_of(job, *file.fbt, std::move(compiled.value().build.report));
+    outcome.report.diagnostics = diagnostics;
+    outcome.file_bytes = bytes.size();
+    outcome.milliseconds = elapsed.count();
     return outcome;
 }
 
@@ -128,9 +148,10 @@ int run_compile(const CompileCommandOptions& options) {
     int exit = kExitOk;
     std::vector<CompileOutcome> outcomes;
     for (const Job& job : plan.value().jobs) {
-        auto outcome = compile_job(job, options);
+        std::vector<Diagnostic> diagnostics;
+        auto outcome = compile_job(job, options, diagnostics);
+        print_diagnostics(diagnostics, job.input, options.quiet);
         if (outcome) {
-            print_diagnostics(outcome.value().report.diagnostics, job.input, options.quiet);
             outcomes.push_back(std::move(outcome).value());
         } else {
             const int code = report_error(outcome.error(), job.input);
@@ -151,9 +172,13 @@ void add_scene_options(CLI::App& app, SceneOptions& scene) {
     app.add_flag("--system-fonts", scene.system_fonts,
                  "Also use the fonts installed here (the bytes then depend on this machine)");
     app.add_option(
+           "--resources", scene.resources,
+           "Folder from which bitmaps named by a drawing may be read; default: none is (--depfile doesn't list them)")
+        ->type_name("DIR");
+    app.add_option(
            "--raster-size", scene.raster_size,
-           "Pixels on the longer side for what can't be vector (filters, patterns, bitmaps); default: from --size")
-        ->check(CLI::Range(1u, kMaxSide))
+           "Pixels on the longer side for what can't be vector (filters, patterns, bitmaps); default: two a texel")
+        ->check(CLI::Range(16u, kMaxSide))
         ->type_name("N");
 }
 

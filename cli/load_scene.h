@@ -14,17 +14,20 @@ namespace fetexc::cli {
 struct SceneOptions {
     std::vector<std::string> fonts; ///< font files for text
     bool system_fonts = false;
-    std::uint32_t raster_size =
-        0; ///< pixels on the longer side for what can't be vector; 0: chosen from the texture's size
+    std::string resources;         ///< folder from which bitmaps named by the drawing are read; empty: none
+    std::uint32_t raster_size = 0; ///< pixels on the longer side for what can't be vector; 0: raster_size_for(texels)
 };
 
 struct LoadedScene {
     Scene scene;
-    std::vector<Diagnostic> diagnostics;
-    std::string source_hash; ///< XXH3-128 of the input's bytes, 32 hex digits
+    std::string source_hash; ///< XXH3-128 of the input's bytes, 32 hex digits, as `xxh128sum` prints it
 };
 
-/// path "-": stdin. texels: longer side of the texture to come.
-Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels);
+/// Two pixels a texel: what a region's samples can show, without aliasing worth seeing.
+std::uint32_t raster_size_for(std::uint32_t texels);
+
+/// path "-": stdin. texels: longer side of the texture to come. Diagnostics are appended on success and on error.
+Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels,
+                               std::vector<Diagnostic>& diagnostics);
 
 } // namespace fetexc::cli
