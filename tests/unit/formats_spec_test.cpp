@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The worked example of formats/SPEC.md is what the writer writes.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "formats/fetex_file.h"
+#include "formats/validate.h"
+
+namespace fetex {
+namespace {
+
+FetexFile example() {
+    FbtTexture t;
+    t.width = t.height = 1;
+    t.texels = {0xff0000ff, kFbtKindSingle << 30 | 1};
+    t.records = {fbt_pack_point(0.25, 0), fbt_pack_point(0.75, 1), 0, 0};
+    for (const std::uint32_t word : {0u, 1u | 1u << 16 | kFbtRayPosX << 18 | kFbtEntryLastRun, 0xff0000ffu, 0u})
+        t.records.push_back(word);
+    for (const std::uint32_t word : {0u, kFbtEntryTerminator, 0xffff0000u, 0u})
+        t.records.push_back(word);
+    t.traits = fbt_traits(t);
+    return {{{"generator", "example"}}, t};
+}
+
+std::string hex_dump(const std::vector<std::uint8_t>& bytes) {
+    std::string text;
+    char part[16];
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+        std::snprintf(part, sizeof part, at % 16 == 0 ? "%04zx " : "", at);
+        text += part;
+        std::snprintf(part, sizeof part, " %02x", bytes[at]);
+        text += part;
+        if (at % 16 == 15 || at + 1 == bytes.size()) text += "\n";
+    }
+    return text;
+}
+
+TEST(Spec, exampleIsWhatTheWriterWrites) {
+    std::ifstream file(std::string(FETEXC_ART_DIR) + "/../../formats/SPEC.md");
+    ASSERT_TRUE(file.good());
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string dump = hex_dump(write_file(example()));
+    EXPECT_NE(text.str().find("\n```\n" + dump + "```\n"), std::string::npos) << "the example should read\n" << dump;
+}
+
+TEST(Spec, exampleIsValidAndSamplesAsTheTextSays) {
+    FetexFile back;
+    ASSERT_FALSE(read_file(back, write_file(example())).has_value());
+    EXPECT_EQ(fbt_locate(*back.fbt, 0.3, 0.5).sample, 0xff0000ffu);
+    EXPECT_EQ(fbt_locate(*back.fbt, 0.6, 0.5).sample, 0xffff0000u);
+}
+
+} // namespace
+} // namespace fetex
