@@ -6,6 +6,44 @@
 
 namespace fetexc::diag {
 
+// SVG front end (owner: compiler/svg): errors
+inline constexpr int kSvgMalformed = 1001;       ///< not XML, or not an SVG
+inline constexpr int kSvgNotUtf8 = 1002;         ///< only UTF-8 is read
+inline constexpr int kSvgBadGzip = 1003;         ///< damaged .svgz
+inline constexpr int kSvgNoSize = 1004;          ///< width or height is zero, negative or not finite
+inline constexpr int kSvgTooManyBytes = 1005;    ///< the file, unpacked, is longer than the limit
+inline constexpr int kSvgTooManyElements = 1006; ///< elements, after expanding use, patterns, masks and markers
+inline constexpr int kSvgTooDeep = 1007;         ///< nesting beyond the limit, or references in a circle
+inline constexpr int kSvgTooManySegments = 1008; ///< path segments, after stroking and expansion
+inline constexpr int kSvgTimeout = 1009;         ///< reading took longer than the limit
+inline constexpr int kSvgInternal = 1010;        ///< a library failed
+inline constexpr int kSvgFontFile = 1011;        ///< a font file can't be read or holds no font
+inline constexpr int kSvgTooManyPixels = 1012;   ///< raster layers or bitmaps beyond the limit
+
+// SVG front end: warnings, something of the drawing is missing or changed
+inline constexpr int kSvgTextWithoutFonts = 2001;  ///< text is not drawn, no fonts were given
+inline constexpr int kSvgFontNotFound = 2002;      ///< a font or glyph is missing
+inline constexpr int kSvgAnimation = 2003;         ///< animation ignored
+inline constexpr int kSvgScript = 2004;            ///< scripts are not run
+inline constexpr int kSvgSvgFont = 2005;           ///< SVG fonts and @font-face are not supported
+inline constexpr int kSvgVectorEffect = 2006;      ///< a vector-effect other than non-scaling-stroke
+inline constexpr int kSvgMediaQuery = 2007;        ///< rules inside @media ignored
+inline constexpr int kSvgMeshOrHatch = 2008;       ///< mesh gradients and hatches are not supported
+inline constexpr int kSvgExternalReference = 2009; ///< reference to another document
+inline constexpr int kSvgForeignObject = 2010;     ///< foreignObject is not drawn
+inline constexpr int kSvgParserMessage = 2011;     ///< another complaint of the SVG parser
+inline constexpr int kSvgBadGeometry = 2012;       ///< coordinates overflow, the shape is not drawn
+inline constexpr int kSvgPlusLighter = 2013;       ///< mix-blend-mode plus-lighter drawn as normal
+inline constexpr int kSvgGradientBands = 2014;     ///< hard edges of a gradient stay inside its paint, they are not features
+inline constexpr int kSvgDashTooFine = 2015;       ///< too many dashes, drawn solid
+inline constexpr int kSvgImageDropped = 2016;      ///< a bitmap is too large or damaged
+inline constexpr int kSvgRasterReduced = 2017;     ///< a bitmap has far more pixels than the texture can show
+
+// SVG front end: notes, how something is represented
+inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer
+inline constexpr int kSvgPatternRasterised = 2102; ///< a pattern of very many tiles became a raster layer
+inline constexpr int kSvgBitmapImage = 2103;       ///< an embedded bitmap became a raster layer
+
 // Scene (owner: compiler/scene)
 inline constexpr int kSceneExtentInvalid = 3001;     ///< canvas size not finite, not positive, or beyond double precision
 inline constexpr int kSceneCoordinateInvalid = 3002; ///< a coordinate of a path is NaN or infinite, or a degree is not 1…3
