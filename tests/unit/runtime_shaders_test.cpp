@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Every shader in every dialect and specialisation goes through Khronos's compiler, and the Vulkan ones through
+/// spirv-cross to HLSL, MSL and ES. Skips, and says so, where the tools aren't installed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
+
+#include "runtime_glsl/host/shader_source.h"
+
+namespace fetex {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_tool(const char* name) {
+    return std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+class Shaders : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) / ("fetex_shaders_" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// Writes the text, runs the command with @ as its path; "" or what the tool said.
+    std::string run(const std::string& text, const std::string& name, const std::string& command) {
+        const fs::path file = folder_ / name, log = folder_ / "log";
+        std::ofstream(file) << text;
+        std::string line = command;
+        for (std::size_t at = 0; (at = line.find('@', at)) != std::string::npos;)
+            line.replace(at, 1, file.string());
+        if (std::system((line + " >" + log.string() + " 2>&1").c_str()) == 0) return {};
+        std::stringstream said;
+        said << std::ifstream(log).rdbuf();
+        return line + "\n" + said.str();
+    }
+
+    fs::path folder_;
+};
+
+FbtTexture needing(std::uint32_t degrees, std::uint32_t switches, std::uint32_t directions) {
+    FbtTexture t;
+    t.apron = switches >> 1 & 1u; // an apron comes with interpolation
+    t.traits.degrees = degrees;
+    t.traits.bands = switches & 1u;
+    t.traits.interpolated = switches & 2u;
+    t.traits.translucent = switches & 4u;
+    t.traits.directions = directions;
+    t.traits.max_entries = degrees == 0 && switches < 4 ? 0 : 3; // bands of one region each have no degree
+    return t;
+}
+
+/// What an asset can need: all sets of degrees with bands, gradients, alpha; and all kinds of ray sets.
+std::vector<FbtTexture> all_specialisations() {
+    std::vector<FbtTexture> all;
+    for (std::uint32_t degrees = 0; degrees < 16; degrees += 2)
+        for (std::uint32_t switches = 0; switches < 8; ++switches)
+            all.push_back(needing(degrees, switches, 15));
+    for (const std::uint32_t directions : {1u, 2u, 4u, 8u, 3u, 12u, 5u, 10u})
+        all.push_back(needing(14, 7, directions));
+    return all;
+}
+
+TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    std::size_t count = 0;
+    for (const Dialect dialect : kDialects) {
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null" : "glslangValidator";
+        // One process takes many files: name them all, run once.
+        std::string files;
+        for (const FbtTexture& texture : all_specialisations()) {
+            for (const bool buffer : {false, true}) {
+                // Where records lie doesn't interact with the rest; ES 3.0 has no texture buffers.
+                if (buffer && (dialect == Dialect::Essl300 || texture.traits.degrees != 14)) continue;
+                const fs::path file = folder_ / (std::to_string(count++) + ".frag");
+                std::ofstream(file) << fbt_fragment_source(dialect, texture, buffer);
+                if (dialect == Dialect::Vulkan450) { // -V links all files of a call
+                    ASSERT_EQ(std::system((tool + " " + file.string() + " >" + (folder_ / "log").string()).c_str()), 0)
+                        << file;
+                } else {
+                    files += file.string() + "\n";
+                }
+            }
+        }
+        EXPECT_EQ(files.empty() ? "" : run(files, "list", "xargs glslangValidator <@"), "") << dialect_name(dialect);
+        EXPECT_EQ(run(view_vertex_source(dialect), "view.vert", tool + " @"), "");
+        EXPECT_EQ(run(bitmap_fragment_source(dialect), "bitmap.frag", tool + " @"), "");
+        EXPECT_EQ(run(filtered_bitmap_fragment_source(dialect), "filtered.frag", tool + " @"), "");
+    }
+    EXPECT_GT(count, 300u);
+}
+
+TEST_F(Shaders, compileWithNothingSpecialised) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    // The plain files, as an engine uses them: prelude, library, a main of its own.
+    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
+    const std::string main_text = "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+                                  "void main() { color = fetexFbtSample(uv); }\n";
+    for (const Dialect dialect : kDialects) {
+        std::stringstream text;
+        text << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
+        text << std::ifstream(root + "fetex_fbt.glsl").rdbuf() << main_text;
+        ASSERT_GT(text.str().size(), 5000u);
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        EXPECT_EQ(run(text.str(), "plain.frag", tool), "");
+    }
+}
+
+TEST_F(Shaders, crossToHlslMetalAndEs) {
+    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
+        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    const std::vector<FbtTexture> all = all_specialisations();
+    const fs::path binary = folder_ / "shader.spv";
+    for (std::size_t k = 0; k < all.size(); k += 7) {
+        ASSERT_EQ(run(fbt_fragment_source(Dialect::Vulkan450, all[k]), "cross.frag",
+                      "glslangValidator -V -o " + binary.string() + " @"),
+                  "");
+        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es", "--version 330 --no-es"})
+            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
+        // What comes out for ES must compile again.
+        EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " --version 310 --es --output @"), "");
+        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
+        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+    }
+}
+
+/// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
+TEST_F(Shaders, arePlainAscii) {
+    for (const Dialect dialect : kDialects)
+        for (const char c : fbt_fragment_source(dialect, {}))
+            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+}
+
+/// What an asset doesn't need isn't in its shader.
+TEST_F(Shaders, leaveOutWhatTheAssetDoesNotNeed) {
+    FbtTexture lines;
+    lines.traits = {.max_degree = 1, .degrees = 2, .directions = 1, .max_entries = 2};
+    const std::string text = fbt_specialisation(lines.traits);
+    EXPECT_NE(text.find("#define FETEX_FBT_DEGREES 2\n"), std::string::npos);
+    EXPECT_NE(text.find("#define FETEX_FBT_BANDS 0\n"), std::string::npos);
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string preprocessed_cubic = "glslangValidator -E @ | grep -q fetexFbtSolveCubic";
+    EXPECT_NE(run(fbt_fragment_source(Dialect::Glsl330, lines), "lines.frag", preprocessed_cubic), "");
+    lines.traits.degrees = 8;
+    EXPECT_EQ(run(fbt_fragment_source(Dialect::Glsl330, lines), "cubics.frag", preprocessed_cubic), "");
+}
+
+} // namespace
+} // namespace fetex
