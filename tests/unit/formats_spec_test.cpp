@@ -29,8 +29,10 @@ std::string hex_dump(const std::vector<std::uint8_t>& bytes) {
     std::string text;
     char part[16];
     for (std::size_t at = 0; at < bytes.size(); ++at) {
-        std::snprintf(part, sizeof part, at % 16 == 0 ? "%04zx " : "", at);
-        text += part;
+        if (at % 16 == 0) {
+            std::snprintf(part, sizeof part, "%04zx ", at);
+            text += part;
+        }
         std::snprintf(part, sizeof part, " %02x", bytes[at]);
         text += part;
         if (at % 16 == 15 || at + 1 == bytes.size()) text += "\n";
