@@ -27,7 +27,7 @@ FetexFile example() {
 
 std::string hex_dump(const std::vector<std::uint8_t>& bytes) {
     std::string text;
-    char part[16];
+    char part[32];
     for (std::size_t at = 0; at < bytes.size(); ++at) {
         if (at % 16 == 0) {
             std::snprintf(part, sizeof part, "%04zx ", at);
