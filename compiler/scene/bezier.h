@@ -16,7 +16,8 @@ enum class Axis { X, Y };
 struct Parameters {
     int count = 0;
     std::array<double, 2> t{};
-    [[nodiscard]] std::span<const double> all() const { return {t.data(), static_cast<std::size_t>(count)}; }
+    [[nodiscard]] std::span<const double> all() const& { return {t.data(), static_cast<std::size_t>(count)}; }
+    std::span<const double> all() const&& = delete; ///< would dangle
 };
 
 [[nodiscard]] inline double coordinate(CanvasPoint p, Axis axis) { return axis == Axis::X ? p.x : p.y; }

@@ -40,7 +40,8 @@ bool handles_fit(const CanvasSegment& s) {
 /// Parameters where one coordinate equals `border`, appended unsorted.
 void add_crossings(const CanvasSegment& s, Axis axis, double border, std::vector<double>& out) {
     std::vector<double> breaks{0};
-    for (double t : bezier::extrema(s, axis).all())
+    const bezier::Parameters turns = bezier::extrema(s, axis);
+    for (double t : turns.all())
         breaks.push_back(t);
     breaks.push_back(1);
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
