@@ -31,12 +31,12 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
     for (const RegionSample& s : samples_) note_sample(s);
     ++(samples_.size() == 2 ? out_.stats.texels_two_regions : out_.stats.texels_more_regions);
     out_.texels.push_back(representative);
-    out_.traits.max_bands = std::max(out_.traits.max_bands, static_cast<std::uint32_t>(bands.size()));
     if (bands.size() == 1) {
         out_.texels.push_back((kFbtKindSingle << 30) | write_band(bands[0]));
         return;
     }
     out_.traits.bands = true;
+    out_.traits.max_bands = std::max(out_.traits.max_bands, static_cast<std::uint32_t>(bands.size()));
     ++out_.stats.texels_banded;
     out_.stats.bands += bands.size();
     std::vector<std::uint32_t> directory{static_cast<std::uint32_t>(bands.size()), 0};

@@ -114,6 +114,7 @@ bool is_collinear(const Curve& c) {
 
 Interval value_at(const Curve& c, Axis axis, double t) {
     const Coordinate& k = c.along(axis);
+    if (k.magnitude == 0) return static_cast<double>(k.origin); // level or upright: exact
     const double v = casteljau(k.local, c.degree, t), error = budget::kEvaluationError * k.magnitude;
     const double sum = static_cast<double>(k.origin) + v;
     return {widen_down(sum) - error, widen_up(sum) + error};
@@ -129,7 +130,7 @@ Interval derivative_over(const Curve& c, Axis axis, const Interval& t) {
 }
 
 Interval value_over(const Curve& c, Axis axis, const Interval& t) {
-    if (t.lo == t.hi) return value_at(c, axis, t.lo);
+    if (t.lo == t.hi || c.along(axis).magnitude == 0) return value_at(c, axis, t.lo);
     const double m = t.mid();
     return value_at(c, axis, m) + derivative_over(c, axis, t) * Interval(widen_down(t.lo - m), widen_up(t.hi - m));
 }

@@ -159,14 +159,27 @@ class PlanarMap::Builder {
         });
         std::vector<std::uint32_t> same(map_.nodes_.size());
         std::iota(same.begin(), same.end(), 0u);
-        for (std::size_t k = 1; k < placed_.size(); ++k) {
-            const Placed &p = placed_[k - 1], &q = placed_[k];
-            if (p.hx == q.hx && p.hy == q.hy && p.along.overlaps(q.along)) same[q.node] = same[p.node];
+        for (std::size_t k = 0; k < placed_.size();) {
+            Placed& first = placed_[k];
+            const std::size_t begin = k;
+            for (++k; k < placed_.size() && joins(first, placed_[k]); ++k) {
+                same[placed_[k].node] = first.node;
+                first.along = {std::max(first.along.lo, placed_[k].along.lo), std::min(first.along.hi, placed_[k].along.hi)};
+            }
+            if (k - begin > 1) place_along(first);
         }
         for (Piece& piece : pieces_) {
             piece.sub.n0 = same[piece.sub.n0];
             piece.sub.n1 = same[piece.sub.n1];
         }
+    }
+
+    static bool joins(const Placed& a, const Placed& b) { return a.hx == b.hx && a.hy == b.hy && a.along.overlaps(b.along); }
+
+    /// The joined node stands where all enclosures agree (exactly, if one of them is exact).
+    void place_along(const Placed& p) {
+        if (is_line(p.hx) && is_line(p.hy)) return;
+        (is_line(p.hx) ? map_.nodes_[p.node].y : map_.nodes_[p.node].x) = p.along.mid();
     }
 
     void sort_into_texels() {

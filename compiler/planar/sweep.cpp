@@ -88,11 +88,15 @@ bool Sweep::cut(Cut range) {
     return true;
 }
 
-/// The band's top line is complete: what crosses it now starts there.
+/// The band's top line is complete: what crosses it now starts there, and the faces between are known.
 void Sweep::rank_top_line() {
     if (!seen_first_slab_) out_->first_face = gaps_.front().face;
     seen_first_slab_ = true;
-    for (std::size_t i = 0; i < status_.size(); ++i) out_->portions[portion_[status_[i]]].rank = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < status_.size(); ++i) {
+        Portion& p = out_->portions[portion_[status_[i]]];
+        p.rank = static_cast<std::uint32_t>(i);
+        p.left = gaps_[i].face, p.right = gaps_[i + 1].face;
+    }
 }
 
 void Sweep::collect_outgoing(std::uint32_t k) {
@@ -165,11 +169,7 @@ void Sweep::next_band() {
         close_gap(gaps_[g], kNone);
         gaps_[g] = open_gap(new_face(), g, kNone);
     }
-    for (std::size_t i = 0; i < status_.size(); ++i) {
-        add_portion(status_[i], true);
-        Portion& p = out_->portions.back();
-        p.left = gaps_[i].face, p.right = gaps_[i + 1].face;
-    }
+    for (std::uint32_t e : status_) add_portion(e, true);
 }
 
 /// e, which starts at or below f's top, runs left of f where both run. They don't cross, so one common level decides.

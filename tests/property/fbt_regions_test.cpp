@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Random scenes full of coincidences: the FBT's region of any point is the scene's, except within the quantisation of an edge.
+#include <gtest/gtest.h>
+
+#include "formats/validate.h"
+#include "tests/support/random_scene.h"
+#include "tests/support/region_check.h"
+
+namespace fetexc::test {
+namespace {
+
+void expect_right_regions(const Scene& scene, GridSize size, std::uint64_t seed) {
+    FbtRegions regions;
+    const Result<FbtBuild> build = build_fbt(scene, {size, 1}, {}, &regions);
+    ASSERT_TRUE(build.ok()) << "seed " << seed << ": " << build.error().message << " " << build.error().place;
+    const auto findings = fetex::validate_fbt(build.value().texture);
+    EXPECT_TRUE(findings.empty()) << "seed " << seed << ": " << (findings.empty() ? "" : findings.front().message);
+    const RegionCheck check = check_regions(scene, build.value(), regions, 4000, seed);
+    EXPECT_EQ(check.wrong_far, 0u) << "seed " << seed << ": " << check.worst;
+    EXPECT_EQ(check.color_off, 0u) << "seed " << seed;
+}
+
+TEST(FbtRegions, OpaqueSolidsAtOddAndEvenSizes) {
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        const Scene scene = random_scene(seed, opaque_solids(4 + static_cast<int>(seed % 12)));
+        expect_right_regions(scene, {static_cast<std::uint32_t>(1 + seed * 7 % 40), 0}, seed);
+    }
+}
+
+TEST(FbtRegions, GroupsClipsMasksAndGradients) {
+    for (std::uint64_t seed = 1000; seed < 1080; ++seed) {
+        const Scene scene = random_scene(seed, everything(3 + static_cast<int>(seed % 9)));
+        expect_right_regions(scene, {static_cast<std::uint32_t>(4 + seed * 5 % 29), static_cast<std::uint32_t>(1 + seed * 11 % 23)}, seed);
+    }
+}
+
+} // namespace
+} // namespace fetexc::test
