@@ -27,7 +27,11 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
     results_ = features.region_result;
     for (std::uint32_t r = 0; r < features.region_result.size(); ++r) samples_.push_back(sampler_.region(texel, features, r));
     const std::vector<ReadyBand> bands = prepare(texel, features);
-    if (bands.size() == 1 && bands[0].features.empty()) return write_empty(representative, samples_[bands[0].rest]);
+    // Everything collapsed. Where the collapsed sliver held the corner, the representative sample isn't the texel's own: a lone terminator
+    // then carries it.
+    if (bands.size() == 1 && bands[0].features.empty() && bands[0].rest == features.corner_region) {
+        return write_empty(representative, samples_[bands[0].rest]);
+    }
     for (const RegionSample& s : samples_) note_sample(s);
     ++(samples_.size() == 2 ? out_.stats.texels_two_regions : out_.stats.texels_more_regions);
     out_.texels.push_back(representative);
