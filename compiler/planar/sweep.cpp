@@ -172,33 +172,47 @@ void Sweep::next_band() {
     for (std::uint32_t e : status_) add_portion(e, true);
 }
 
-/// e, which starts at or below f's top, runs left of f where both run. They don't cross, so one common level decides.
-bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
-    const double lo = std::max(node(edges_[e].top).y, node(edges_[f].top).y);
-    const double hi = std::min(node(edges_[e].bottom).y, node(edges_[f].bottom).y);
-    if (!(lo < hi)) return left_of_level(e, f);
-    const Stretch a = map_.stretch_of(sub_edges_[edges_[e].sub]), b = map_.stretch_of(sub_edges_[edges_[f].sub]);
-    constexpr std::array<double, 3> levels{0.5, 0.9375, 0.25};
-    const auto x_at = [](const Stretch& s, double y) {
-        return value_over(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y));
-    };
-    for (double w : levels) {
-        const double y = lo + w * (hi - lo);
-        if (const int c = compare(x_at(a, y), x_at(b, y)); c != 0) return c < 0;
-    }
-    ++stats_.exact_comparisons;
-    return compare_x_at_y_exact(a, b, lo + 0.5 * (hi - lo)) < 0;
+namespace {
+
+struct Range {
+    double lo = 0, hi = 0;
+    [[nodiscard]] double length() const { return hi - lo; }
+};
+
+Range common(Range a, Range b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
+
+/// Position along the other axis where the stretch passes the level.
+Interval position_at(const Stretch& s, Axis level_axis, double level) {
+    const bool over_y = level_axis == Axis::Y;
+    const Interval t = parameter_at(*s.curve, level_axis, s.range, over_y ? s.y_increasing : s.x_increasing, level);
+    return value_over(*s.curve, over_y ? Axis::X : Axis::Y, t);
 }
 
-/// One of the two is level (or no taller than the resolution of a double).
-bool Sweep::left_of_level(std::uint32_t e, std::uint32_t f) const {
+} // namespace
+
+/// e runs left of f where both run: decided by the boxes, or on a level they have in common. They don't cross, so one level is enough.
+bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
     const GridNode &et = node(edges_[e].top), &eb = node(edges_[e].bottom), &ft = node(edges_[f].top), &fb = node(edges_[f].bottom);
-    const bool e_level = et.y == eb.y, f_level = ft.y == fb.y;
-    if (edges_[e].top == edges_[f].top) return f_level && !e_level; // level edges leave to the right of all others
-    const Stretch s = map_.stretch_of(sub_edges_[edges_[f].sub]);
-    if (f_level) return et.x < std::min(ft.x, fb.x);
-    const Interval x = value_over(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, et.y));
-    return et.x < x.mid();
+    const Range ex{std::min(et.x, eb.x), std::max(et.x, eb.x)}, fx{std::min(ft.x, fb.x), std::max(ft.x, fb.x)};
+    if (ex.hi <= fx.lo && ex.lo < fx.hi) return true;
+    if (fx.hi <= ex.lo && fx.lo < ex.hi) return false;
+    const Range y = common({et.y, eb.y}, {ft.y, fb.y}), x = common(ex, fx);
+    // Below and beside agree from a common top on, and for level edges; elsewhere e may pass under f's end.
+    const bool over_x = x.length() > y.length() && (edges_[e].top == edges_[f].top || !(y.length() > 0));
+    if (!over_x) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
+    const int below = order_on_levels(e, f, Axis::X, x.lo, x.hi); // +1: e is below f
+    return fb.x >= ft.x ? below > 0 : below < 0; // below an edge that falls to the right is left of it
+}
+
+int Sweep::order_on_levels(std::uint32_t e, std::uint32_t f, Axis axis, double lo, double hi) {
+    const Stretch a = map_.stretch_of(sub_edges_[edges_[e].sub]), b = map_.stretch_of(sub_edges_[edges_[f].sub]);
+    for (const double w : {0.5, 0.9375, 0.25}) {
+        const double level = lo + w * (hi - lo);
+        if (const int c = compare(position_at(a, axis, level), position_at(b, axis, level)); c != 0) return c;
+    }
+    ++stats_.exact_comparisons;
+    const double level = lo + 0.5 * (hi - lo);
+    return axis == Axis::Y ? compare_x_at_y_exact(a, b, level) : compare_y_at_x_exact(a, b, level);
 }
 
 std::uint32_t Sweep::new_face() {

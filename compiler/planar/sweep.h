@@ -82,7 +82,7 @@ class Sweep {
     void rank_top_line();
     void collect_outgoing(std::uint32_t k);
     bool left_of(std::uint32_t e, std::uint32_t f);
-    bool left_of_level(std::uint32_t e, std::uint32_t f) const;
+    int order_on_levels(std::uint32_t e, std::uint32_t f, Axis axis, double lo, double hi);
     std::uint32_t new_face();
     Gap open_gap(std::uint32_t face, std::size_t position, std::uint32_t top_node);
     void close_gap(const Gap& gap, std::uint32_t bottom_node);
