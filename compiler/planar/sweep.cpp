@@ -197,9 +197,15 @@ bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
     if (ex.hi <= fx.lo && ex.lo < fx.hi) return true;
     if (fx.hi <= ex.lo && fx.lo < ex.hi) return false;
     const Range y = common({et.y, eb.y}, {ft.y, fb.y}), x = common(ex, fx);
-    // Below and beside agree from a common top on, and for level edges; elsewhere e may pass under f's end.
-    const bool over_x = x.length() > y.length() && (edges_[e].top == edges_[f].top || !(y.length() > 0));
-    if (!over_x) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
+    if (edges_[e].top != edges_[f].top) {
+        if (y.length() > 0) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
+        // f ends on the level where e starts, or e is level: any of its points decides, take the middle one.
+        if (fb.y <= et.y) return et.x < fb.x;
+        const double middle = et.y == eb.y ? 0.5 * (ex.lo + ex.hi) : et.x;
+        return middle < position_at(map_.stretch_of(sub_edges_[edges_[f].sub]), Axis::Y, et.y).mid();
+    }
+    // From a common top on, below and beside agree: take the axis along which the two have more in common.
+    if (y.length() >= x.length()) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
     const int below = order_on_levels(e, f, Axis::X, x.lo, x.hi); // +1: e is below f
     return fb.x >= ft.x ? below > 0 : below < 0; // below an edge that falls to the right is left of it
 }
