@@ -229,6 +229,22 @@ TEST(Identity, equalSolidColoursAreOneResult) {
     EXPECT_EQ(c.color(id({3}), {}), (Rgba{128 / 255.0, 0, 0, 128 / 255.0}));
 }
 
+/// 1 − (1−a)(1−b) is 1/2 for each pair, and 127.5 rounds the same way however it was reached.
+TEST(Identity, tiesRoundTheSameWay) {
+    int below = 0;
+    for (const double a : {0.2, 0.25, 0.3, 0.4, 0.1, 0.15, 0.35, 0.45, 0.05, 0.12}) {
+        const double b = 1 - 0.5 / (1 - a);
+        below += over({0, 0, 0, a}, {0, 0, 0, b}).a < 0.5 ? 1 : 0;
+        Stacked s;
+        s.add(SolidPaint{{0, 0, 0, 0.5}});
+        s.add(SolidPaint{{0, 0, 0, a}});
+        s.add(SolidPaint{{0, 0, 0, b}});
+        Compositor c(s.scene);
+        EXPECT_EQ(c.resolve(std::vector<std::uint32_t>{0}), c.resolve(std::vector<std::uint32_t>{1, 2})) << a;
+    }
+    EXPECT_GT(below, 0) << "no case reaches the tie from below: the test shows nothing";
+}
+
 TEST(Identity, whatLiesUnderAnOpaqueGradientDoesNotMatter) {
     Stacked s;
     s.add(SolidPaint{{1, 0, 0, 1}});

@@ -322,6 +322,20 @@ TEST(GuardBox, outputIsClosedAndWithinTheLimits) {
     }
 }
 
+TEST(GuardBox, crossingTheBorderAtAnInflectionIsSeen) {
+    // x = border + 8e7·(t − 1/2)³: the derivative vanishes where the curve crosses
+    const GuardBox box = guard_box(make_extent(1, 1).value());
+    for (const double k : {1e7, -1e7}) {
+        const CanvasSegment s = cubic({box.x1 - k, 0}, {box.x1 + k, 1e6}, {box.x1 - k, 2e6}, {box.x1 + k, 3e6});
+        std::vector<CanvasSegment> out;
+        clip_to_guard_box(s, box, out);
+        EXPECT_EQ(out.size(), 2u);
+        for (const CanvasSegment& part : out)
+            for (int i = 0; i <= 16; ++i)
+                EXPECT_LE(bezier::point_at(part, i / 16.0).x, box.x1 + 1e-6);
+    }
+}
+
 TEST(GuardBox, curvesInsideAreNotTouched) {
     const GuardBox box = guard_box(make_extent(1, 1).value());
     std::vector<CanvasSegment> out;

@@ -52,18 +52,21 @@ TEST(Winding, discHoldsExactlyWhatIsCloserThanItsRadius) {
 }
 
 TEST(Winding, latticePointsOnVertexAndExtremumLevelsAreNotMiscounted) {
-    // rays through vertices, along horizontal edges and through extrema of curves
-    const Scene scene = filled({{{test::circle({50, 50}, 25)}, FillRule::NonZero},
-                                {{test::polygon({{10, 50}, {25, 25}, {50, 25}, {75, 25}, {90, 50}, {50, 90}})}, FillRule::NonZero}});
+    // rays through vertices, along horizontal edges and through extrema of curves; even-odd shows a level counted twice
+    const Contours hexagon{test::polygon({{10, 50}, {25, 25}, {50, 25}, {75, 25}, {90, 50}, {50, 90}})};
+    const Scene scene = filled({{{test::circle({50, 50}, 25)}, FillRule::EvenOdd},
+                                {hexagon, FillRule::NonZero},
+                                {hexagon, FillRule::EvenOdd},
+                                {test::reversed(hexagon), FillRule::EvenOdd}});
     const GroundTruth truth(scene);
     using Shapes = std::vector<std::uint32_t>;
     EXPECT_EQ(truth.inside(5 * kUnit, 50 * kUnit), Shapes{});
-    EXPECT_EQ(truth.inside(20 * kUnit, 50 * kUnit), Shapes{1});
-    EXPECT_EQ(truth.inside(50 * kUnit, 50 * kUnit), (Shapes{0, 1}));
+    EXPECT_EQ(truth.inside(20 * kUnit, 50 * kUnit), (Shapes{1, 2, 3}));
+    EXPECT_EQ(truth.inside(50 * kUnit, 50 * kUnit), (Shapes{0, 1, 2, 3}));
     EXPECT_EQ(truth.inside(5 * kUnit, 25 * kUnit), Shapes{});
     EXPECT_EQ(truth.inside(5 * kUnit, 75 * kUnit), Shapes{});
     EXPECT_EQ(truth.inside(5 * kUnit, 90 * kUnit), Shapes{});
-    EXPECT_EQ(truth.inside(36 * kUnit, 75 * kUnit), Shapes{1});
+    EXPECT_EQ(truth.inside(36 * kUnit, 75 * kUnit), (Shapes{1, 2, 3}));
 }
 
 TEST(Winding, fillRulesDifferWhereAPathOverlapsItself) {
@@ -111,7 +114,8 @@ int sampled_winding(const Scene& scene, const Shape& shape, double x, double y) 
         const CanvasSegment s = bezier::to_double(scene.segments[k]);
         const int steps = s.degree == 1 ? 1 : 1000;
         for (int i = 0; i < steps; ++i) {
-            const CanvasPoint a = bezier::point_at(s, double(i) / steps), b = bezier::point_at(s, double(i + 1) / steps);
+            const CanvasPoint a = bezier::point_at(s, double(i) / steps),
+                              b = bezier::point_at(s, double(i + 1) / steps);
             const double ax = a.x - x, ay = a.y - y, bx = b.x - x, by = b.y - y;
             angle += std::atan2(ax * by - ay * bx, ax * bx + ay * by);
         }
@@ -129,7 +133,8 @@ TEST(Winding, agreesWithTheAngleSumOnRandomScenes) {
         const GroundTruth truth(scene);
         for (int i = 0; i < 40; ++i) {
             const double x = random.between(0, 100) * kUnit, y = random.between(0, 100) * kUnit;
-            if (truth.distance_to_curves_within(x, y, 0.01 * kUnit) < 0.01 * kUnit) continue; // the sum samples coarsely
+            if (truth.distance_to_curves_within(x, y, 0.01 * kUnit) < 0.01 * kUnit)
+                continue; // the sum samples coarsely
             std::vector<std::uint32_t> expected;
             for (std::uint32_t s = 0; s < scene.shapes.size(); ++s) {
                 const int winding = sampled_winding(scene, scene.shapes[s], x, y);
