@@ -10,6 +10,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TIME_LIMIT = 60  # seconds for one file (issue 2)
+INTERNAL = {"E1010", "E4001", "E7005", "E8052"}  # numbered, but they explain nothing about the file
 SKIPPED = 77  # exit code that ctest shows as "skipped"
 
 
@@ -50,6 +51,7 @@ def verdict(result):
         return ""
     if result["exit"] not in (2, 3, 4, 5) or not any(code.startswith("E") for code in codes(result["messages"])):
         return f"exit {result['exit']} without a numbered error"
-    if re.search(r"error E8052", result["messages"]):
-        return "internal error"
+    internal = INTERNAL.intersection(codes(result["messages"]))
+    if internal:
+        return f"our own failure ({', '.join(sorted(internal))}), not the file's"
     return ""
