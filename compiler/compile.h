@@ -58,7 +58,8 @@ struct FbtBuild {
     CompileReport report;
 };
 
-/// Builds the FBT of a scene. Errors: size out of range, arrangement limits, internal inconsistency (never a wrong result).
+/// Builds the FBT of a scene. Errors: size out of range, arrangement limits, internal inconsistency (never a wrong
+/// result).
 Result<FbtBuild> compile_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress = {});
 
 } // namespace fetexc

@@ -37,33 +37,39 @@ class RowProgress {
 
 void add(PlanarStats& a, const PlanarStats& b) {
     a.exact_comparisons += b.exact_comparisons;
-    a.texels += b.texels, a.texels_empty += b.texels_empty, a.texels_simple += b.texels_simple, a.texels_arranged += b.texels_arranged;
+    a.texels += b.texels, a.texels_empty += b.texels_empty, a.texels_simple += b.texels_simple,
+        a.texels_arranged += b.texels_arranged;
     a.trapezoids += b.trapezoids, a.regions += b.regions;
     a.edges_invisible += b.edges_invisible, a.edges_visible += b.edges_visible;
 }
 
 void add(FbtStats& a, const FbtStats& b) {
-    a.texels_empty += b.texels_empty, a.texels_two_regions += b.texels_two_regions, a.texels_more_regions += b.texels_more_regions;
+    a.texels_empty += b.texels_empty, a.texels_two_regions += b.texels_two_regions,
+        a.texels_more_regions += b.texels_more_regions;
     a.texels_banded += b.texels_banded, a.bands += b.bands, a.bands_avoided += b.bands_avoided;
-    a.features += b.features, a.pieces += b.pieces, a.regions += b.regions, a.regions_interpolated += b.regions_interpolated;
+    a.features += b.features, a.pieces += b.pieces, a.regions += b.regions,
+        a.regions_interpolated += b.regions_interpolated;
     a.runs_shared += b.runs_shared, a.pieces_demoted += b.pieces_demoted, a.slivers_collapsed += b.slivers_collapsed;
 }
 
 void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
     a.max_degree = std::max(a.max_degree, b.max_degree);
     a.degrees |= b.degrees, a.directions |= b.directions;
-    a.bands = a.bands || b.bands, a.interpolated = a.interpolated || b.interpolated, a.translucent = a.translucent || b.translucent;
+    a.bands = a.bands || b.bands, a.interpolated = a.interpolated || b.interpolated,
+    a.translucent = a.translucent || b.translucent;
     a.max_entries = std::max(a.max_entries, b.max_entries), a.max_bands = std::max(a.max_bands, b.max_bands);
 }
 
 Error inconsistent(std::uint32_t i, std::uint32_t j) {
-    return {ErrorClass::Runtime, diag::kPlanarInconsistent, "the planar map contradicts itself; please report this file",
+    return {ErrorClass::Runtime, diag::kPlanarInconsistent,
+            "the planar map contradicts itself; please report this file",
             "texel (" + std::to_string(i) + ", " + std::to_string(j) + ")"};
 }
 
 class Builder {
   public:
-    Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map, Compositor& compositor)
+    Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
+            Compositor& compositor)
         : scene_(scene), options_(options), map_(map), compositor_(compositor), corners_(map, scene, compositor),
           sampler_(map, scene, compositor, corners_), progress_(progress, map.grid().height) {}
 
@@ -82,7 +88,8 @@ class Builder {
         for (const Status& s : status) {
             if (!s) return s.error();
         }
-        for (const PlanarStats& s : stats) add(report.planar, s);
+        for (const PlanarStats& s : stats)
+            add(report.planar, s);
         return join(rows, std::move(report), regions);
     }
 
@@ -125,28 +132,33 @@ class Builder {
         build.report = std::move(report);
         fetex::FbtTexture& t = build.texture;
         t.width = map_.grid().width, t.height = map_.grid().height;
-        for (const RowOutput& row : rows) add(t.traits, row.traits), add(build.report.fbt, row.stats);
+        for (const RowOutput& row : rows)
+            add(t.traits, row.traits), add(build.report.fbt, row.stats);
         t.apron = t.traits.interpolated ? 1 : 0;
         for (std::uint32_t j = 0; j < t.height; ++j) {
             const std::uint64_t base = t.records.size() / 4;
             if (base + rows[j].records.size() / 4 > fetex::kFbtAddressMask) {
-                return Error{ErrorClass::Unsupported, diag::kFbtTooLarge, "the texture needs more records than the format can address", ""};
+                return Error{ErrorClass::Unsupported, diag::kFbtTooLarge,
+                             "the texture needs more records than the format can address", ""};
             }
             append_row(rows[j], static_cast<std::uint32_t>(base), t, regions);
             if (t.apron == 1) append_corner(t.width, j, t);
         }
-        for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i) append_corner(i, t.height, t);
+        for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i)
+            append_corner(i, t.height, t);
         build.report.fbt.gpu_bytes = (t.texels.size() + t.records.size()) * sizeof(std::uint32_t);
         if (regions != nullptr) {
             for (std::uint32_t j = 0; j <= t.height; ++j) {
-                for (std::uint32_t i = 0; i <= t.width; ++i) regions->corners.push_back(corners_.at(i, j));
+                for (std::uint32_t i = 0; i <= t.width; ++i)
+                    regions->corners.push_back(corners_.at(i, j));
             }
         }
         return build;
     }
 
     static void append_row(RowOutput& row, std::uint32_t base, fetex::FbtTexture& t, FbtRegions* regions) {
-        for (std::uint32_t w : row.relocate) row.records[w] += base;
+        for (std::uint32_t w : row.relocate)
+            row.records[w] += base;
         for (std::size_t k = 1; k < row.texels.size(); k += 2) {
             if (row.texels[k] >> 30 != fetex::kFbtKindEmpty) row.texels[k] += base;
         }
@@ -193,7 +205,8 @@ GridSize grid_for(const Extent& extent, std::uint32_t longer_side) {
     return complete(extent, extent.width >= extent.height ? GridSize{longer_side, 0} : GridSize{0, longer_side});
 }
 
-Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, FbtRegions* regions) {
+Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress,
+                           FbtRegions* regions) {
     const GridSize size = complete(scene.extent, options.size);
     if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize) {
         return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};

@@ -13,7 +13,8 @@ namespace {
 /// Regions: faces joined over invisible edges.
 class RegionFinder {
   public:
-    RegionFinder(const TexelMap& texel, TexelFeatures& out) : texel_(texel), out_(out), parent_(texel.sweep.faces.size()) {
+    RegionFinder(const TexelMap& texel, TexelFeatures& out)
+        : texel_(texel), out_(out), parent_(texel.sweep.faces.size()) {
         std::iota(parent_.begin(), parent_.end(), 0u);
     }
 
@@ -21,10 +22,13 @@ class RegionFinder {
     std::vector<std::uint32_t> run() {
         const SweepResult& s = texel_.sweep;
         std::vector<std::uint32_t> visible;
-        for (std::uint32_t f = 0; f < s.faces.size(); ++f) unite(f, s.face(f));
+        for (std::uint32_t f = 0; f < s.faces.size(); ++f)
+            unite(f, s.face(f));
         for (const Portion& p : s.portions) {
-            if (texel_.left_result(p) == texel_.right_result(p)) unite(p.left, p.right);
-            else visible.push_back(texel_.edges[p.edge].sub);
+            if (texel_.left_result(p) == texel_.right_result(p))
+                unite(p.left, p.right);
+            else
+                visible.push_back(texel_.edges[p.edge].sub);
         }
         out_.edges_visible = visible.size(), out_.edges_invisible = s.portions.size() - visible.size();
         number_regions();
@@ -34,7 +38,8 @@ class RegionFinder {
 
   private:
     std::uint32_t find(std::uint32_t f) {
-        while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+        while (parent_[f] != f)
+            f = parent_[f] = parent_[parent_[f]];
         return f;
     }
     void unite(std::uint32_t a, std::uint32_t b) {
@@ -74,7 +79,8 @@ class BandBuilder {
         if (!mapper_.sweep().run(texel_.sub_edges, nodes_, edges_, cuts_, texel_.frame, sweep_)) return false;
         map_regions();
         std::vector<std::vector<std::uint32_t>> by_band(cuts_.size() + 1);
-        for (std::uint32_t p = 0; p < sweep_.portions.size(); ++p) by_band[sweep_.portions[p].band].push_back(p);
+        for (std::uint32_t p = 0; p < sweep_.portions.size(); ++p)
+            by_band[sweep_.portions[p].band].push_back(p);
         for (std::uint32_t b = 0; b < by_band.size(); ++b) {
             if (!build_band(b, by_band[b])) return false;
         }
@@ -84,13 +90,15 @@ class BandBuilder {
   private:
     [[nodiscard]] const GridNode& node(std::uint32_t k) const { return map_.node(nodes_[k]); }
     [[nodiscard]] bool on_texel_side(const GridNode& n) const {
-        return n.hx == texel_.frame.left || n.hx == texel_.frame.left + 2 || n.hy == texel_.frame.top || n.hy == texel_.frame.top + 2;
+        return n.hx == texel_.frame.left || n.hx == texel_.frame.left + 2 || n.hy == texel_.frame.top ||
+               n.hy == texel_.frame.top + 2;
     }
 
     /// Band lines: the levels of interior nodes where other than two visible edges meet (FBT §3.2).
     void find_cuts() {
         std::vector<std::uint32_t> degree(nodes_.size(), 0);
-        for (const SweepEdge& e : edges_) ++degree[e.top], ++degree[e.bottom];
+        for (const SweepEdge& e : edges_)
+            ++degree[e.top], ++degree[e.bottom];
         on_cut_.assign(nodes_.size(), false);
         for (std::uint32_t k = 0; k < nodes_.size();) {
             std::uint32_t last = k;
@@ -110,7 +118,8 @@ class BandBuilder {
     /// Region of every band face, through the first sweep's faces beside the same edge.
     void map_regions() {
         std::vector<const Portion*> first(texel_.sub_edges.size(), nullptr);
-        for (const Portion& p : texel_.sweep.portions) first[texel_.edges[p.edge].sub] = &p;
+        for (const Portion& p : texel_.sweep.portions)
+            first[texel_.edges[p.edge].sub] = &p;
         region_.assign(sweep_.faces.size(), kNone);
         for (const Portion& p : sweep_.portions) {
             const Portion& original = *first[edges_[p.edge].sub];
@@ -119,7 +128,9 @@ class BandBuilder {
         }
     }
 
-    [[nodiscard]] double side_level(int steps) const { return static_cast<double>(map_.grid().py) * (texel_.frame.top / 2 + steps); }
+    [[nodiscard]] double side_level(int steps) const {
+        return static_cast<double>(map_.grid().py) * (texel_.frame.top / 2 + steps);
+    }
 
     bool build_band(std::uint32_t b, const std::vector<std::uint32_t>& portions) {
         Band band;
@@ -152,7 +163,8 @@ class BandBuilder {
         return out_.corner_region;
     }
 
-    // --- chains ----------------------------------------------------------------------------------------------------------------
+    // --- chains
+    // ----------------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] bool open_end(std::uint32_t p, bool top) const {
         const Portion& portion = sweep_.portions[p];
@@ -180,7 +192,8 @@ class BandBuilder {
         for (std::uint32_t p : portions) {
             for (const bool top : {true, false}) {
                 if (open_end(p, top)) continue;
-                auto& pair = at_node_[top ? edges_[sweep_.portions[p].edge].top : edges_[sweep_.portions[p].edge].bottom];
+                auto& pair =
+                    at_node_[top ? edges_[sweep_.portions[p].edge].top : edges_[sweep_.portions[p].edge].bottom];
                 (pair[0] == kNone ? pair[0] : pair[1]) = p;
             }
         }
@@ -222,7 +235,8 @@ class BandBuilder {
         band.features.push_back(std::move(f));
     }
 
-    // --- ray direction and inside (FBT §4.5: never towards a side that the feature touches) --------------------------------------
+    // --- ray direction and inside (FBT §4.5: never towards a side that the feature touches)
+    // --------------------------------------
 
     void direct(const Walk& w, SimpleFeature& f) const {
         const std::uint32_t a = w.portions.front(), b = w.portions.back();
@@ -254,7 +268,8 @@ class BandBuilder {
         };
         for (std::uint32_t p : w.portions) {
             const auto k = key(p);
-            if (first == kNone || k.first < key(first).first) first = last = p;
+            if (first == kNone || k.first < key(first).first)
+                first = last = p;
             else if (k.first == key(first).first) {
                 if (k.second < key(first).second) first = p;
                 if (k.second > key(last).second) last = p;
@@ -268,11 +283,13 @@ class BandBuilder {
         f.outside = sweep_.face(left ? portion.right : portion.left);
     }
 
-    // --- order: what lies inside a feature comes before it -----------------------------------------------------------------------
+    // --- order: what lies inside a feature comes before it
+    // -----------------------------------------------------------------------
 
     bool order_features(Band& band) const {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> parents; // inside face → feature
-        for (std::uint32_t k = 0; k < band.features.size(); ++k) parents.emplace_back(band.features[k].inside, k);
+        for (std::uint32_t k = 0; k < band.features.size(); ++k)
+            parents.emplace_back(band.features[k].inside, k);
         std::sort(parents.begin(), parents.end());
         for (std::size_t k = 1; k < parents.size(); ++k) {
             if (parents[k].first == parents[k - 1].first) return false;
@@ -283,7 +300,8 @@ class BandBuilder {
         }
         std::vector<std::uint32_t> order(band.features.size());
         std::iota(order.begin(), order.end(), 0u);
-        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) { return depth[x] > depth[y]; });
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t x, std::uint32_t y) { return depth[x] > depth[y]; });
         std::vector<SimpleFeature> sorted;
         for (std::uint32_t k : order) {
             band.regions.push_back(region_[band.features[k].inside]);
@@ -294,8 +312,8 @@ class BandBuilder {
     }
 
     /// Number of features around feature k; false when they run in a circle.
-    static bool find_depth(const Band& band, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& parents, std::uint32_t k,
-                           std::vector<std::uint32_t>& depth) {
+    static bool find_depth(const Band& band, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& parents,
+                           std::uint32_t k, std::vector<std::uint32_t>& depth) {
         std::vector<std::uint32_t> path;
         std::uint32_t base = 0;
         for (std::uint32_t at = k;;) {
@@ -309,7 +327,8 @@ class BandBuilder {
             if (it == parents.end() || it->first != band.features[at].outside) break;
             at = it->second;
         }
-        for (std::size_t i = path.size(); i-- > 0;) depth[path[i]] = base++;
+        for (std::size_t i = path.size(); i-- > 0;)
+            depth[path[i]] = base++;
         return true;
     }
 

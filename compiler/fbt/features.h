@@ -15,10 +15,11 @@ struct FeatureStep {
     bool forward = true;
 };
 
-/// A chain that splits its band into two. The region of `inside` lies where a ray in direction `ray` meets the chain an odd number of times.
+/// A chain that splits its band into two. The region of `inside` lies where a ray in direction `ray` meets the chain an
+/// odd number of times.
 struct SimpleFeature {
     std::vector<FeatureStep> steps;
-    std::uint32_t ray = 0; ///< fetex::kFbtRay…
+    std::uint32_t ray = 0;                 ///< fetex::kFbtRay…
     std::uint32_t inside = 0, outside = 0; ///< band faces
 };
 
@@ -29,15 +30,15 @@ struct Band {
 };
 
 struct TexelFeatures {
-    std::vector<Band> bands;             ///< empty: no visible edge
+    std::vector<Band> bands;                   ///< empty: no visible edge
     std::vector<std::uint32_t> region_of_face; ///< first sweep's face → region
     std::vector<ResultId> region_result;
-    std::uint32_t corner_region = 0;     ///< holds the texel's corner (i,j)
+    std::uint32_t corner_region = 0; ///< holds the texel's corner (i,j)
     std::uint64_t edges_visible = 0, edges_invisible = 0;
 };
 
-/// Drops edges with the same visible result on both sides, cuts at the junctions of the rest, chains, directs and orders them.
-/// False: the chains don't form a tree of regions (an internal contradiction, reported by the caller).
+/// Drops edges with the same visible result on both sides, cuts at the junctions of the rest, chains, directs and
+/// orders them. False: the chains don't form a tree of regions (an internal contradiction, reported by the caller).
 bool build_features(const PlanarMap& map, TexelMapper& mapper, const TexelMap& texel, TexelFeatures& out);
 
 } // namespace fetexc

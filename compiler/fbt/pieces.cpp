@@ -14,7 +14,7 @@ struct LocalPoint {
 /// A stretch of one arc from node to node, in chain direction.
 struct Joined {
     std::uint32_t arc = 0;
-    double t0 = 0, t1 = 0; ///< in the arc's own direction: t0 < t1
+    double t0 = 0, t1 = 0;        ///< in the arc's own direction: t0 < t1
     std::uint32_t n0 = 0, n1 = 0; ///< nodes at t0, t1
     bool forward = true;
 };
@@ -26,7 +26,8 @@ class Quantiser {
     }
 
     [[nodiscard]] LocalPoint local(const GridNode& n) const {
-        return {(n.x - static_cast<double>(x0_)) / static_cast<double>(grid_.px), (n.y - static_cast<double>(y0_)) / static_cast<double>(grid_.py)};
+        return {(n.x - static_cast<double>(x0_)) / static_cast<double>(grid_.px),
+                (n.y - static_cast<double>(y0_)) / static_cast<double>(grid_.py)};
     }
 
     /// Control points in texel units; ends from the nodes.
@@ -58,7 +59,8 @@ int demote(std::array<LocalPoint, 4>& p, int degree) {
         const LocalPoint third{p[3].x - 3 * p[2].x + 3 * p[1].x - p[0].x, p[3].y - 3 * p[2].y + 3 * p[1].y - p[0].y};
         constexpr double factor = 0.0482; // > √3/36
         if (factor * norm(third) > budget::kDemotionTolerance) return 3;
-        const LocalPoint q{(3 * (p[1].x + p[2].x) - p[0].x - p[3].x) / 4, (3 * (p[1].y + p[2].y) - p[0].y - p[3].y) / 4};
+        const LocalPoint q{(3 * (p[1].x + p[2].x) - p[0].x - p[3].x) / 4,
+                           (3 * (p[1].y + p[2].y) - p[0].y - p[3].y) / 4};
         p = {p[0], q, p[3], LocalPoint{}};
         degree = 2;
     }
@@ -98,7 +100,8 @@ std::uint32_t quantise(double v) {
     return static_cast<std::uint32_t>(std::clamp(u, 0.0, 65535.0));
 }
 
-std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps, PieceStats& stats) {
+std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps,
+                           PieceStats& stats) {
     const Quantiser quantiser(map, texel);
     std::vector<Run> runs;
     for (const Joined& j : join(map, texel, steps)) {
@@ -107,13 +110,15 @@ std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::spa
         Piece piece;
         piece.degree = demote(p, c.degree);
         if (piece.degree < c.degree) ++stats.demoted;
-        for (int i = 0; i <= piece.degree; ++i) piece.p[j.forward ? i : piece.degree - i] = pack(p[i]);
+        for (int i = 0; i <= piece.degree; ++i)
+            piece.p[j.forward ? i : piece.degree - i] = pack(p[i]);
         if (piece.p[0] == piece.p[piece.degree]) {
             ++stats.vanished;
             continue;
         }
         ++stats.pieces;
-        if (runs.empty() || runs.back().degree != piece.degree || runs.back().pieces.size() == 0xffff) runs.push_back({piece.degree, {}});
+        if (runs.empty() || runs.back().degree != piece.degree || runs.back().pieces.size() == 0xffff)
+            runs.push_back({piece.degree, {}});
         runs.back().pieces.push_back(piece);
     }
     return runs;

@@ -32,8 +32,9 @@ struct PieceStats {
     std::uint64_t pieces = 0, demoted = 0, vanished = 0;
 };
 
-/// Joins steps along one arc, lowers degrees within kDemotionTolerance, quantises, drops pieces that vanish. End points come from the
-/// nodes, so chains stay closed and neighbouring texels meet.
-std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps, PieceStats& stats);
+/// Joins steps along one arc, lowers degrees within kDemotionTolerance, quantises, drops pieces that vanish. End points
+/// come from the nodes, so chains stay closed and neighbouring texels meet.
+std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps,
+                           PieceStats& stats);
 
 } // namespace fetexc

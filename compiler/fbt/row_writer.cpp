@@ -25,14 +25,16 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
     samples_.clear();
     written_.clear();
     results_ = features.region_result;
-    for (std::uint32_t r = 0; r < features.region_result.size(); ++r) samples_.push_back(sampler_.region(texel, features, r));
+    for (std::uint32_t r = 0; r < features.region_result.size(); ++r)
+        samples_.push_back(sampler_.region(texel, features, r));
     const std::vector<ReadyBand> bands = prepare(texel, features);
-    // Everything collapsed. Where the collapsed sliver held the corner, the representative sample isn't the texel's own: a lone terminator
-    // then carries it.
+    // Everything collapsed. Where the collapsed sliver held the corner, the representative sample isn't the texel's
+    // own: a lone terminator then carries it.
     if (bands.size() == 1 && bands[0].features.empty() && bands[0].rest == features.corner_region) {
         return write_empty(representative, samples_[bands[0].rest]);
     }
-    for (const RegionSample& s : samples_) note_sample(s);
+    for (const RegionSample& s : samples_)
+        note_sample(s);
     ++(samples_.size() == 2 ? out_.stats.texels_two_regions : out_.stats.texels_more_regions);
     out_.texels.push_back(representative);
     if (bands.size() == 1) {
@@ -49,13 +51,15 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
         directory.push_back(write_band(b));
     }
     const std::uint32_t address = next_record();
-    for (std::size_t k = 0; k < bands.size(); ++k) out_.relocate.push_back(static_cast<std::uint32_t>(out_.records.size() + 3 + 2 * k));
+    for (std::size_t k = 0; k < bands.size(); ++k)
+        out_.relocate.push_back(static_cast<std::uint32_t>(out_.records.size() + 3 + 2 * k));
     out_.records.insert(out_.records.end(), directory.begin(), directory.end());
     out_.records.resize((out_.records.size() + 3) / 4 * 4, 0);
     out_.texels.push_back((kFbtKindBanded << 30) | address);
 }
 
-/// Quantised bands: those without height go, features whose pieces all vanished go (slivers below the output grid, counted).
+/// Quantised bands: those without height go, features whose pieces all vanished go (slivers below the output grid,
+/// counted).
 std::vector<RowWriter::ReadyBand> RowWriter::prepare(const TexelMap& texel, const TexelFeatures& features) {
     const Grid& g = map_.grid();
     std::vector<ReadyBand> ready;
@@ -70,8 +74,10 @@ std::vector<RowWriter::ReadyBand> RowWriter::prepare(const TexelMap& texel, cons
         b.y_end = y_end, b.rest = band.regions.back();
         for (std::size_t k = 0; k < band.features.size(); ++k) {
             std::vector<Run> runs = make_runs(map_, texel, band.features[k].steps, pieces);
-            if (runs.empty()) ++out_.stats.slivers_collapsed;
-            else b.features.push_back({std::move(runs), band.features[k].ray, band.regions[k]});
+            if (runs.empty())
+                ++out_.stats.slivers_collapsed;
+            else
+                b.features.push_back({std::move(runs), band.features[k].ray, band.regions[k]});
         }
         previous = y_end;
         ready.push_back(std::move(b));
@@ -84,7 +90,8 @@ std::vector<RowWriter::ReadyBand> RowWriter::prepare(const TexelMap& texel, cons
 std::uint32_t RowWriter::write_band(const ReadyBand& band) {
     std::vector<std::uint32_t> addresses;
     for (const ReadyFeature& f : band.features) {
-        for (const Run& run : f.runs) addresses.push_back(write_pieces(run));
+        for (const Run& run : f.runs)
+            addresses.push_back(write_pieces(run));
     }
     const std::uint32_t first = next_record();
     std::size_t k = 0;
@@ -96,7 +103,9 @@ std::uint32_t RowWriter::write_band(const ReadyBand& band) {
             const auto degree = static_cast<std::uint32_t>(run.degree);
             out_.traits.degrees |= 1u << degree;
             out_.traits.max_degree = std::max(out_.traits.max_degree, degree);
-            write_entry(addresses[k++], static_cast<std::uint32_t>(run.pieces.size()) | (degree << 16) | (f.ray << 18) | (last ? kFbtEntryLastRun : 0),
+            write_entry(addresses[k++],
+                        static_cast<std::uint32_t>(run.pieces.size()) | (degree << 16) | (f.ray << 18) |
+                            (last ? kFbtEntryLastRun : 0),
                         f.region, last);
         }
     }
@@ -120,7 +129,8 @@ std::uint32_t RowWriter::write_pieces(const Run& run) {
             if (words.empty()) words.push_back(p.p[0]);
             words.push_back(p.p[1]);
         } else {
-            for (int i = 0; i < 4; ++i) words.push_back(i <= run.degree ? p.p[i] : 0);
+            for (int i = 0; i < 4; ++i)
+                words.push_back(i <= run.degree ? p.p[i] : 0);
         }
     }
     words.resize((words.size() + 3) / 4 * 4, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Writes one row of texels into row-local words; rows are joined in order afterwards, so they can be built in parallel.
+/// Writes one row of texels into row-local words; rows are joined in order afterwards, so they can be built in
+/// parallel.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,9 @@
 namespace fetexc {
 
 struct RowOutput {
-    std::vector<std::uint32_t> texels;     ///< word 0, word 1 per texel; addresses row-local
-    std::vector<std::uint32_t> records;    ///< four words each
-    std::vector<std::uint32_t> relocate;   ///< word indices in records that hold record addresses
+    std::vector<std::uint32_t> texels;                       ///< word 0, word 1 per texel; addresses row-local
+    std::vector<std::uint32_t> records;                      ///< four words each
+    std::vector<std::uint32_t> relocate;                     ///< word indices in records that hold record addresses
     std::vector<std::pair<std::uint32_t, ResultId>> entries; ///< row-local record → result
     FbtStats stats;
     fetex::FbtTraits traits;
@@ -24,7 +25,8 @@ struct RowOutput {
 
 class RowWriter {
   public:
-    RowWriter(const PlanarMap& map, const RegionSampler& sampler, RowOutput& out) : map_(map), sampler_(sampler), out_(out) {}
+    RowWriter(const PlanarMap& map, const RegionSampler& sampler, RowOutput& out)
+        : map_(map), sampler_(sampler), out_(out) {}
 
     void write_empty(std::uint32_t representative, const RegionSample& sample);
     void write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features);

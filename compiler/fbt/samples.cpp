@@ -7,7 +7,9 @@
 namespace fetexc {
 namespace {
 
-std::uint32_t pack_channel(double v) { return static_cast<std::uint32_t>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5)); }
+std::uint32_t pack_channel(double v) {
+    return static_cast<std::uint32_t>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5));
+}
 
 std::array<double, 4> channels(const Rgba& c) { return {c.r, c.g, c.b, c.a}; }
 
@@ -23,7 +25,8 @@ std::uint32_t pack_rgba8(const Rgba& c) {
 }
 
 CanvasPoint to_canvas(const Scene& scene, const Grid& grid, double x, double y) {
-    return {x / static_cast<double>(grid.right()) * scene.extent.width, y / static_cast<double>(grid.bottom()) * scene.extent.height};
+    return {x / static_cast<double>(grid.right()) * scene.extent.width,
+            y / static_cast<double>(grid.bottom()) * scene.extent.height};
 }
 
 CornerResults::CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor)
@@ -37,7 +40,8 @@ CornerResults::CornerResults(const PlanarMap& map, const Scene& scene, Composito
 
 Rgba CornerResults::color(std::uint32_t i, std::uint32_t j) const {
     const Grid& g = map_.grid();
-    return compositor_.color(at(i, j), to_canvas(scene_, g, static_cast<double>(g.px * i), static_cast<double>(g.py * j)));
+    return compositor_.color(at(i, j),
+                             to_canvas(scene_, g, static_cast<double>(g.px * i), static_cast<double>(g.py * j)));
 }
 
 std::uint32_t CornerResults::rgba(std::uint32_t i, std::uint32_t j) const { return pack_rgba8(color(i, j)); }
@@ -45,16 +49,19 @@ std::uint32_t CornerResults::rgba(std::uint32_t i, std::uint32_t j) const { retu
 /// FBT §4.6: which sample stands at each corner; a corner out of reach takes the closest one that isn't (Fig. 6).
 std::uint32_t RegionSampler::mask_for(std::uint32_t i, std::uint32_t j, ResultId result) const {
     if (compositor_.is_solid(result)) return 0;
-    // A neighbour's representative sample can be used when it shows the same result: it is then a value of the same paint, and
-    // every region reachable without crossing a visible edge (§4.4) does.
-    const bool right = corners_.at(i + 1, j) == result, up = corners_.at(i, j + 1) == result, diagonal = corners_.at(i + 1, j + 1) == result;
+    // A neighbour's representative sample can be used when it shows the same result: it is then a value of the same
+    // paint, and every region reachable without crossing a visible edge (§4.4) does.
+    const bool right = corners_.at(i + 1, j) == result, up = corners_.at(i, j + 1) == result,
+               diagonal = corners_.at(i + 1, j + 1) == result;
     const std::uint32_t c1 = right ? 1 : 0;
     const std::uint32_t c2 = up ? 2 : 0;
     const std::uint32_t c3 = diagonal ? 3 : right ? 1 : up ? 2 : 0;
     return (c1 << 2) | (c2 << 4) | (c3 << 6);
 }
 
-RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const { return {corners_.rgba(i, j), mask_for(i, j, corners_.at(i, j))}; }
+RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const {
+    return {corners_.rgba(i, j), mask_for(i, j, corners_.at(i, j))};
+}
 
 RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const {
     const ResultId result = features.region_result[r];
@@ -73,7 +80,8 @@ double x_on(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge, dou
 }
 
 /// Two levels of three points in every trapezoid of the region, weighted by area.
-std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) {
+std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features,
+                                        std::uint32_t r) {
     const Grid& g = map.grid();
     const double left = static_cast<double>(g.px * texel.i), top = static_cast<double>(g.py * texel.j);
     const double right = left + static_cast<double>(g.px), bottom = top + static_cast<double>(g.py);
@@ -87,7 +95,8 @@ std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& te
             const double y = y0 + v * (y1 - y0);
             const double x0 = x_on(map, texel, t.left, y, left), x1 = x_on(map, texel, t.right, y, right);
             if (!(x1 > x0)) continue;
-            for (const double u : {1.0 / 6, 0.5, 5.0 / 6}) points.push_back({x0 + u * (x1 - x0), y, (x1 - x0) * (y1 - y0)});
+            for (const double u : {1.0 / 6, 0.5, 5.0 / 6})
+                points.push_back({x0 + u * (x1 - x0), y, (x1 - x0) * (y1 - y0)});
         }
     }
     return points;
@@ -95,14 +104,15 @@ std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& te
 
 } // namespace
 
-/// Minimises Σ weight·(interpolated − paint)² over the own sample, channel by channel: it enters with the sum of the bilinear weights of the
-/// corners it stands at.
-Rgba RegionSampler::fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r, std::uint32_t mask) const {
+/// Minimises Σ weight·(interpolated − paint)² over the own sample, channel by channel: it enters with the sum of the
+/// bilinear weights of the corners it stands at.
+Rgba RegionSampler::fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r,
+                        std::uint32_t mask) const {
     const Grid& g = map_.grid();
     const ResultId result = features.region_result[r];
-    const std::array<std::array<double, 4>, 4> sample{std::array<double, 4>{}, channels(corners_.color(texel.i + 1, texel.j)),
-                                                      channels(corners_.color(texel.i, texel.j + 1)),
-                                                      channels(corners_.color(texel.i + 1, texel.j + 1))};
+    const std::array<std::array<double, 4>, 4> sample{
+        std::array<double, 4>{}, channels(corners_.color(texel.i + 1, texel.j)),
+        channels(corners_.color(texel.i, texel.j + 1)), channels(corners_.color(texel.i + 1, texel.j + 1))};
     std::array<double, 4> numerator{};
     double denominator = 0;
     for (const QuadraturePoint& q : quadrature(map_, texel, features, r)) {
@@ -114,13 +124,16 @@ Rgba RegionSampler::fit(const TexelMap& texel, const TexelFeatures& features, st
         for (std::uint32_t k = 0; k < 4; ++k) {
             const std::uint32_t which = (mask >> (2 * k)) & 3;
             if (which == 0) own += weight[k];
-            for (int c = 0; c < 4 && which != 0; ++c) others[c] += weight[k] * sample[which][c];
+            for (int c = 0; c < 4 && which != 0; ++c)
+                others[c] += weight[k] * sample[which][c];
         }
         denominator += q.weight * own * own;
-        for (int c = 0; c < 4; ++c) numerator[c] += q.weight * own * (paint[c] - others[c]);
+        for (int c = 0; c < 4; ++c)
+            numerator[c] += q.weight * own * (paint[c] - others[c]);
     }
     if (!(denominator > 0)) {
-        return compositor_.color(result, to_canvas(scene_, g, static_cast<double>(g.px) * (texel.i + 0.5), static_cast<double>(g.py) * (texel.j + 0.5)));
+        return compositor_.color(result, to_canvas(scene_, g, static_cast<double>(g.px) * (texel.i + 0.5),
+                                                   static_cast<double>(g.py) * (texel.j + 0.5)));
     }
     const auto value = [&](int c) { return numerator[c] / denominator; };
     const double a = std::clamp(value(3), 0.0, 1.0);

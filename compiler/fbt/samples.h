@@ -21,7 +21,9 @@ std::uint32_t pack_rgba8(const Rgba& premultiplied);
 class CornerResults {
   public:
     CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor);
-    [[nodiscard]] ResultId at(std::uint32_t i, std::uint32_t j) const { return results_[static_cast<std::size_t>(j) * (width_ + 1) + i]; }
+    [[nodiscard]] ResultId at(std::uint32_t i, std::uint32_t j) const {
+        return results_[static_cast<std::size_t>(j) * (width_ + 1) + i];
+    }
     /// Representative sample: the colour at the corner itself.
     [[nodiscard]] std::uint32_t rgba(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] Rgba color(std::uint32_t i, std::uint32_t j) const;
@@ -43,13 +45,14 @@ class RegionSampler {
 
     /// Region of an empty texel.
     [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const;
-    /// Region r of a texel. The region that holds the corner (i,j) takes the point sample there; any other the sample that fits its
-    /// paint best in the least-squares sense over the region, given which neighbours it may use.
+    /// Region r of a texel. The region that holds the corner (i,j) takes the point sample there; any other the sample
+    /// that fits its paint best in the least-squares sense over the region, given which neighbours it may use.
     [[nodiscard]] RegionSample region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const;
 
   private:
     [[nodiscard]] std::uint32_t mask_for(std::uint32_t i, std::uint32_t j, ResultId result) const;
-    [[nodiscard]] Rgba fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r, std::uint32_t mask) const;
+    [[nodiscard]] Rgba fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r,
+                           std::uint32_t mask) const;
 
     const PlanarMap& map_;
     const Scene& scene_;

@@ -25,8 +25,11 @@ Coordinate coordinate(const Curve& c, Axis axis) {
 
 /// A cubic whose leading coefficient vanishes, and whose quadratic control point is an integer point.
 bool reduce_cubic(Curve& c) {
-    const auto lead = [](std::int64_t a, std::int64_t b, std::int64_t d, std::int64_t e) { return e - 3 * d + 3 * b - a; };
-    if (lead(c.p[0].x, c.p[1].x, c.p[2].x, c.p[3].x) != 0 || lead(c.p[0].y, c.p[1].y, c.p[2].y, c.p[3].y) != 0) return false;
+    const auto lead = [](std::int64_t a, std::int64_t b, std::int64_t d, std::int64_t e) {
+        return e - 3 * d + 3 * b - a;
+    };
+    if (lead(c.p[0].x, c.p[1].x, c.p[2].x, c.p[3].x) != 0 || lead(c.p[0].y, c.p[1].y, c.p[2].y, c.p[3].y) != 0)
+        return false;
     const std::int64_t qx = 3 * c.p[1].x - c.p[0].x, qy = 3 * c.p[1].y - c.p[0].y;
     if (qx % 2 != 0 || qy % 2 != 0) return false;
     c.p = {c.p[0], IntPoint{qx / 2, qy / 2}, c.p[3], IntPoint{}};
@@ -37,14 +40,16 @@ bool reduce_cubic(Curve& c) {
 double casteljau(const std::array<double, 4>& v, int degree, double t) {
     std::array<double, 4> q = v;
     for (int k = degree; k > 0; --k) {
-        for (int i = 0; i < k; ++i) q[i] += t * (q[i + 1] - q[i]);
+        for (int i = 0; i < k; ++i)
+            q[i] += t * (q[i + 1] - q[i]);
     }
     return q[0];
 }
 
 std::array<double, 4> hodograph(const Coordinate& c, int degree) {
     std::array<double, 4> d{};
-    for (int i = 0; i < degree; ++i) d[i] = degree * (c.local[i + 1] - c.local[i]);
+    for (int i = 0; i < degree; ++i)
+        d[i] = degree * (c.local[i + 1] - c.local[i]);
     return d;
 }
 
@@ -54,7 +59,8 @@ double blossom(const std::array<double, 4>& v, int degree, const std::array<doub
     for (int k = degree; k > 0; --k) {
         const double u = t[degree - k];
         // u = 1 is exact, so that a zero handle at the end stays exactly zero.
-        for (int i = 0; i < k; ++i) q[i] = u == 1 ? q[i + 1] : q[i] + u * (q[i + 1] - q[i]);
+        for (int i = 0; i < k; ++i)
+            q[i] = u == 1 ? q[i + 1] : q[i] + u * (q[i + 1] - q[i]);
     }
     return q[0];
 }
@@ -63,7 +69,8 @@ std::array<double, 4> blossom_stretch(const std::array<double, 4>& v, int degree
     std::array<double, 4> out{};
     for (int k = 0; k <= degree; ++k) {
         std::array<double, 3> args{};
-        for (int i = 0; i < degree; ++i) args[i] = i < degree - k ? t0 : t1;
+        for (int i = 0; i < degree; ++i)
+            args[i] = i < degree - k ? t0 : t1;
         out[k] = blossom(v, degree, args);
     }
     return out;
@@ -124,7 +131,8 @@ Interval derivative_over(const Curve& c, Axis axis, const Interval& t) {
     const Coordinate& k = c.along(axis);
     const std::array<double, 4> d = blossom_stretch(hodograph(k, c.degree), c.degree - 1, t.lo, t.hi);
     Interval out(d[0], d[0]);
-    for (int i = 1; i < c.degree; ++i) out = hull(out, Interval(d[i]));
+    for (int i = 1; i < c.degree; ++i)
+        out = hull(out, Interval(d[i]));
     const double error = 2 * budget::kEvaluationError * 2 * c.degree * k.magnitude;
     return {out.lo - error, out.hi + error};
 }
@@ -150,7 +158,8 @@ Interval parameter_at(const Curve& c, Axis axis, const Interval& range, bool inc
     const Coordinate& k = c.along(axis);
     const double sign = increasing ? 1 : -1, target = v - static_cast<double>(k.origin);
     const double t = newton_root(c, axis, range.lo, range.hi, sign, target);
-    const double slope = std::fabs(derivative_double(c, axis, t)), noise = 2 * budget::kEvaluationError * (k.magnitude + std::fabs(target));
+    const double slope = std::fabs(derivative_double(c, axis, t)),
+                 noise = 2 * budget::kEvaluationError * (k.magnitude + std::fabs(target));
     double delta = std::max(2 * budget::kUnitRoundoff * std::fabs(t), slope > 0 ? noise / slope : 0.0);
     delta = std::max(delta, budget::kUnderflowGuard);
     const auto bound = [&](double side) {

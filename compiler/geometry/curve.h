@@ -37,8 +37,9 @@ struct Curve {
     [[nodiscard]] IntPoint last() const { return p[static_cast<std::size_t>(degree)]; }
 };
 
-/// Exact degree reduction: cubic → quadratic when the control points stay integers; anything collinear → the line between its end
-/// points (what it runs beyond them it runs twice, in opposite directions, so no winding number changes).
+/// Exact degree reduction: cubic → quadratic when the control points stay integers; anything collinear → the line
+/// between its end points (what it runs beyond them it runs twice, in opposite directions, so no winding number
+/// changes).
 Curve make_curve(int degree, const std::array<IntPoint, 4>& p);
 
 /// Exact: all control points on one line.
@@ -56,11 +57,13 @@ double derivative_double(const Curve& c, Axis axis, double t);
 /// As value_double, relative to the curve's origin (no rounding to the absolute position).
 double local_double(const Curve& c, Axis axis, double t);
 
-/// Parameter of a monotone stretch [range.lo, range.hi] at which the coordinate equals v: an enclosure inside the range. The caller
-/// guarantees that the coordinate is monotone there and that v lies between the values at the ends (up to their enclosures).
+/// Parameter of a monotone stretch [range.lo, range.hi] at which the coordinate equals v: an enclosure inside the
+/// range. The caller guarantees that the coordinate is monotone there and that v lies between the values at the ends
+/// (up to their enclosures).
 Interval parameter_at(const Curve& c, Axis axis, const Interval& range, bool increasing, double v);
 
-/// Control values of the stretch [t0,t1] (blossom), relative to the curve's origin, in double; error ≤ 2·kEvaluationError·magnitude.
+/// Control values of the stretch [t0,t1] (blossom), relative to the curve's origin, in double; error ≤
+/// 2·kEvaluationError·magnitude.
 std::array<double, 4> stretch(const Curve& c, Axis axis, double t0, double t1);
 
 } // namespace fetexc

@@ -106,7 +106,8 @@ std::optional<mpq_class> support_scale(const Vectors& a, const Vectors& b, const
 }
 
 /// B(alpha·s + beta) has exactly A's coefficients.
-bool maps_onto(const std::array<mpz_class, 4>& a, const std::array<mpz_class, 4>& b, const mpq_class& alpha, const mpq_class& beta) {
+bool maps_onto(const std::array<mpz_class, 4>& a, const std::array<mpz_class, 4>& b, const mpq_class& alpha,
+               const mpq_class& beta) {
     const mpq_class c0 = b[0], c1 = b[1], c2 = b[2], c3 = b[3];
     const mpq_class e0 = c0 + beta * (c1 + beta * (c2 + beta * c3));
     const mpq_class e1 = alpha * (c1 + beta * (2 * c2 + 3 * beta * c3));
@@ -137,7 +138,8 @@ bool same_support(const Curve& a, const Curve& b, SupportMap& map) {
     const std::optional<mpq_class> alpha = support_scale(va, vb, ratio);
     if (!alpha) return false;
     const mpq_class power = d == 2 ? *alpha : *alpha * *alpha;
-    const mpq_class a1(use_x ? va.x[d - 1] : va.y[d - 1]), b1(use_x ? vb.x[d - 1] : vb.y[d - 1]), bd(use_x ? vb.x[d] : vb.y[d]);
+    const mpq_class a1(use_x ? va.x[d - 1] : va.y[d - 1]), b1(use_x ? vb.x[d - 1] : vb.y[d - 1]),
+        bd(use_x ? vb.x[d] : vb.y[d]);
     const mpq_class beta = (a1 / power - b1) / (d * bd);
     if (!maps_onto(va.x, vb.x, *alpha, beta) || !maps_onto(va.y, vb.y, *alpha, beta)) return false;
     map = {alpha->get_d(), beta.get_d(), enclose(beta), enclose(*alpha + beta)};
@@ -149,8 +151,9 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
     if (r.empty()) return ExactOutcome::CommonComponent;
     const Polynomial ax = power_basis(*a.curve, Axis::X), ay = power_basis(*a.curve, Axis::Y);
     // B as a graph over the axis along which it runs farther.
-    const bool over_y = std::fabs(value_double(*b.curve, Axis::Y, b.range.hi) - value_double(*b.curve, Axis::Y, b.range.lo)) >=
-                        std::fabs(value_double(*b.curve, Axis::X, b.range.hi) - value_double(*b.curve, Axis::X, b.range.lo));
+    const bool over_y =
+        std::fabs(value_double(*b.curve, Axis::Y, b.range.hi) - value_double(*b.curve, Axis::Y, b.range.lo)) >=
+        std::fabs(value_double(*b.curve, Axis::X, b.range.hi) - value_double(*b.curve, Axis::X, b.range.lo));
     const Axis level = over_y ? Axis::Y : Axis::X;
     const Polynomial bl = power_basis(*b.curve, level), bv = power_basis(*b.curve, other(level));
     const bool increasing = over_y ? b.y_increasing : b.x_increasing;
@@ -161,7 +164,7 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
         const RationalInterval t{bisect(b, bl, increasing, increasing ? at.lo : at.hi, 2 * budget::kRefineBits).lo,
                                  bisect(b, bl, increasing, increasing ? at.hi : at.lo, 2 * budget::kRefineBits).hi};
         const RationalInterval reached = evaluate_over(bl, t), crossing = evaluate_over(bv, t);
-        if (reached.lo > at.hi + slack || reached.hi < at.lo - slack) continue; // beyond an end of the stretch
+        if (reached.lo > at.hi + slack || reached.hi < at.lo - slack) continue;         // beyond an end of the stretch
         if (crossing.lo > value.hi + slack || crossing.hi < value.lo - slack) continue; // another branch
         hits.push_back({to_double(s), to_double(t)});
     }

@@ -16,13 +16,15 @@ struct Stretch {
     bool x_increasing = true, y_increasing = true; ///< with growing t
 };
 
-/// Sign of the implicit form of the curve's algebraic curve at an integer point: 0 iff the point lies on it (Bezout determinant).
+/// Sign of the implicit form of the curve's algebraic curve at an integer point: 0 iff the point lies on it (Bezout
+/// determinant).
 int implicit_sign(const Curve& c, IntPoint p);
 
-/// A(s) = B(alpha·s + beta) for rationals alpha ≠ 0, beta: the curves run on one algebraic curve with one parametrisation.
+/// A(s) = B(alpha·s + beta) for rationals alpha ≠ 0, beta: the curves run on one algebraic curve with one
+/// parametrisation.
 struct SupportMap {
-    double alpha = 0, beta = 0;            ///< rounded; for ordering only
-    Interval start, end;                   ///< enclosures of B's parameter at A's ends
+    double alpha = 0, beta = 0; ///< rounded; for ordering only
+    Interval start, end;        ///< enclosures of B's parameter at A's ends
 };
 /// Exact; true only for degree ≥ 2 (lines are matched by planar/arcs).
 bool same_support(const Curve& a, const Curve& b, SupportMap& map);

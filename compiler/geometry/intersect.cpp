@@ -60,7 +60,8 @@ void split(const Part& in, Part& left, Part& right) {
 class Filter {
   public:
     Filter(const Stretch& a, const Stretch& b, std::span<const Contact> known) : a_(a), b_(b), known_(known) {
-        offset_ = {static_cast<double>(b.curve->x.origin - a.curve->x.origin), static_cast<double>(b.curve->y.origin - a.curve->y.origin)};
+        offset_ = {static_cast<double>(b.curve->x.origin - a.curve->x.origin),
+                   static_cast<double>(b.curve->y.origin - a.curve->y.origin)};
         const double ma = std::max(a.curve->x.magnitude, a.curve->y.magnitude);
         const double mb = std::max(b.curve->x.magnitude, b.curve->y.magnitude);
         scale_ = std::max(ma, mb + std::max(std::fabs(offset_.x), std::fabs(offset_.y)));
@@ -88,17 +89,20 @@ class Filter {
         out.range = range;
         const std::array<double, 4> x = stretch(*s.curve, Axis::X, range.lo, range.hi);
         const std::array<double, 4> y = stretch(*s.curve, Axis::Y, range.lo, range.hi);
-        for (int i = 0; i <= out.degree; ++i) out.p[i] = {x[i] + offset.x, y[i] + offset.y};
+        for (int i = 0; i <= out.degree; ++i)
+            out.p[i] = {x[i] + offset.x, y[i] + offset.y};
         return out;
     }
 
-    [[nodiscard]] double margin(int depth) const { return (2 * budget::kEvaluationError + depth * budget::kSplitError) * scale_; }
+    [[nodiscard]] double margin(int depth) const {
+        return (2 * budget::kEvaluationError + depth * budget::kSplitError) * scale_;
+    }
 
     static bool apart(const Pair& pair, double eps) {
         const Box p = box_of(pair.a), q = box_of(pair.b);
         const double e = 2 * eps;
-        return p.x1 + e < q.x0 || q.x1 + e < p.x0 || p.y1 + e < q.y0 || q.y1 + e < p.y0 || beside_chord(pair.a, pair.b, eps) ||
-               beside_chord(pair.b, pair.a, eps);
+        return p.x1 + e < q.x0 || q.x1 + e < p.x0 || p.y1 + e < q.y0 || q.y1 + e < p.y0 ||
+               beside_chord(pair.a, pair.b, eps) || beside_chord(pair.b, pair.a, eps);
     }
 
     /// Fat line: every control point of v beyond the strip around u's chord.
@@ -122,7 +126,8 @@ class Filter {
         return lo2 > hi + e || hi2 < lo - e;
     }
 
-    /// All tangents of a on one side of all tangents of b: at most one common point. Exactly zero legs (zero handles) are no tangents.
+    /// All tangents of a on one side of all tangents of b: at most one common point. Exactly zero legs (zero handles)
+    /// are no tangents.
     static bool cones_apart(const Part& a, const Part& b, double eps) {
         int sign = 0;
         for (int i = 0; i < a.degree; ++i) {
@@ -161,7 +166,9 @@ class Filter {
         return norm1(n) > 0 && beyond(a, a_ends ? -1 : 1) && beyond(b, b_ends ? 1 : -1);
     }
 
-    static bool touches(const Contact& c, const Pair& pair) { return c.s.overlaps(pair.a.range) && c.t.overlaps(pair.b.range); }
+    static bool touches(const Contact& c, const Pair& pair) {
+        return c.s.overlaps(pair.a.range) && c.t.overlaps(pair.b.range);
+    }
 
     bool decided(const Pair& pair) {
         const double eps = margin(pair.depth);
@@ -180,12 +187,15 @@ class Filter {
     /// The contact may stick out of the box; the cones must be apart on the box enlarged to hold it.
     bool alone_with(const Contact& c, const Pair& pair) const {
         const Interval s = hull(c.s, pair.a.range), t = hull(c.t, pair.b.range);
-        if (s.lo == pair.a.range.lo && s.hi == pair.a.range.hi && t.lo == pair.b.range.lo && t.hi == pair.b.range.hi) return true;
+        if (s.lo == pair.a.range.lo && s.hi == pair.a.range.hi && t.lo == pair.b.range.lo && t.hi == pair.b.range.hi)
+            return true;
         return cones_apart(part(a_, s, {}), part(b_, t, offset_), margin(0));
     }
 
     bool corner_only(const Contact& c, const Pair& pair, double eps) const {
-        const auto end_of = [](const Interval& p, const Interval& range) { return p.lo >= range.hi ? 1 : p.hi <= range.lo ? 0 : -1; };
+        const auto end_of = [](const Interval& p, const Interval& range) {
+            return p.lo >= range.hi ? 1 : p.hi <= range.lo ? 0 : -1;
+        };
         const int ea = end_of(c.s, pair.a.range), eb = end_of(c.t, pair.b.range);
         return ea >= 0 && eb >= 0 && pointed_apart(pair.a, ea == 1, pair.b, eb == 1, eps);
     }
@@ -203,7 +213,8 @@ class Filter {
             const double ds = (-f.x * gb.y + f.y * gb.x) / d, dt = (ga.x * f.y - ga.y * f.x) / d;
             s -= ds, t -= dt;
             if (!(std::fabs(s - s0) <= 4 * ws && std::fabs(t - t0) <= 4 * wt)) return false;
-            converged = std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff || (k > 8 && std::fabs(ds) < 1e-3 * ws);
+            converged =
+                std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff || (k > 8 && std::fabs(ds) < 1e-3 * ws);
         }
         return converged && certify(pair, s, t);
     }
@@ -213,7 +224,8 @@ class Filter {
         const double d = std::fabs(cross(ga, gb));
         if (d == 0) return false;
         const double noise = 4 * budget::kEvaluationError * scale_;
-        double rs = norm1(gb) / d * noise + 4 * budget::kUnitRoundoff, rt = norm1(ga) / d * noise + 4 * budget::kUnitRoundoff;
+        double rs = norm1(gb) / d * noise + 4 * budget::kUnitRoundoff,
+               rt = norm1(ga) / d * noise + 4 * budget::kUnitRoundoff;
         for (int k = 0; k < 5; ++k, rs *= 4, rt *= 4) {
             if (!krawczyk(s, t, rs, rt)) continue;
             const Contact c{{s - rs, s + rs}, {t - rt, t + rt}};
@@ -247,7 +259,8 @@ class Filter {
         return {along(Axis::X, offset_.x), along(Axis::Y, offset_.y)};
     }
 
-    /// Krawczyk operator on the box of radius (rs,rt): maps into itself only if it holds exactly one zero of A(s) − B(t).
+    /// Krawczyk operator on the box of radius (rs,rt): maps into itself only if it holds exactly one zero of A(s) −
+    /// B(t).
     bool krawczyk(double s, double t, double rs, double rt) const {
         const Vector f = difference(s, t);
         const double fe = 2 * budget::kEvaluationError * scale_;
@@ -268,7 +281,8 @@ class Filter {
     }
 
     static bool subdivide(const Pair& pair, std::vector<Pair>& stack) {
-        if (pair.a.range.width() < budget::kFilterMinWidth && pair.b.range.width() < budget::kFilterMinWidth) return false;
+        if (pair.a.range.width() < budget::kFilterMinWidth && pair.b.range.width() < budget::kFilterMinWidth)
+            return false;
         const Box p = box_of(pair.a), q = box_of(pair.b);
         const double la = std::max(p.x1 - p.x0, p.y1 - p.y0), lb = std::max(q.x1 - q.x0, q.y1 - q.y0);
         Part al, ar, bl, br;
@@ -323,7 +337,8 @@ void intersect_lines(const Curve& a, const Curve& b, std::vector<Contact>& found
 
 } // namespace
 
-PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known, std::vector<Contact>& found) {
+PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known,
+                                std::vector<Contact>& found) {
     if (a.curve->degree == 1 && b.curve->degree == 1) {
         intersect_lines(*a.curve, *b.curve, found);
         return PairOutcome::Certified;
@@ -334,11 +349,14 @@ PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<co
 std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p) {
     const Curve& c = *s.curve;
     const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
-    const Interval x0 = value_over(c, Axis::X, {s.range.lo, s.range.lo}), x1 = value_over(c, Axis::X, {s.range.hi, s.range.hi});
-    const Interval y0 = value_over(c, Axis::Y, {s.range.lo, s.range.lo}), y1 = value_over(c, Axis::Y, {s.range.hi, s.range.hi});
+    const Interval x0 = value_over(c, Axis::X, {s.range.lo, s.range.lo}),
+                   x1 = value_over(c, Axis::X, {s.range.hi, s.range.hi});
+    const Interval y0 = value_over(c, Axis::Y, {s.range.lo, s.range.lo}),
+                   y1 = value_over(c, Axis::Y, {s.range.hi, s.range.hi});
     if (!hull(x0, x1).contains(x) || !hull(y0, y1).contains(y)) return {};
     const bool over_y = std::fabs(y1.mid() - y0.mid()) >= std::fabs(x1.mid() - x0.mid());
-    const Interval t = over_y ? parameter_at(c, Axis::Y, s.range, s.y_increasing, y) : parameter_at(c, Axis::X, s.range, s.x_increasing, x);
+    const Interval t = over_y ? parameter_at(c, Axis::Y, s.range, s.y_increasing, y)
+                              : parameter_at(c, Axis::X, s.range, s.x_increasing, x);
     if (!value_over(c, over_y ? Axis::X : Axis::Y, t).contains(over_y ? x : y)) return {};
     if (c.degree == 1 ? cross(c.p[0], c.p[1], p) != 0 : implicit_sign(c, p) != 0) return {};
     return t;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Certified intersection of two monotone stretches (DESIGN §5.4): the floating-point filter in front of geometry/exact.h.
+/// Certified intersection of two monotone stretches (DESIGN §5.4): the floating-point filter in front of
+/// geometry/exact.h.
 #pragma once
 
 #include <optional>
@@ -17,10 +18,11 @@ struct Contact {
 
 enum class PairOutcome { Certified, Undecided };
 
-/// Appends every common point that is not in `known` (shared end points and end points lying on the other curve, found exactly by the
-/// caller). Certified: the list is complete, each entry proved to exist (Krawczyk) and to be alone (tangent cones). Undecided: tangent,
-/// overlapping or too close to tell; nothing is appended and exact.h decides.
-PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known, std::vector<Contact>& found);
+/// Appends every common point that is not in `known` (shared end points and end points lying on the other curve, found
+/// exactly by the caller). Certified: the list is complete, each entry proved to exist (Krawczyk) and to be alone
+/// (tangent cones). Undecided: tangent, overlapping or too close to tell; nothing is appended and exact.h decides.
+PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known,
+                                std::vector<Contact>& found);
 
 /// Exact: the integer point lies on the stretch's curve and within the stretch; gives its parameter.
 std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p);

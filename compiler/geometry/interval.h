@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Closed intervals of doubles that contain the exact result of every operation.
 ///
-/// Each operation rounds to nearest and then widens by two unit roundoffs, instead of switching the rounding mode: the same
-/// bytes on every compiler, no per-thread state, no -frounding-math. The cost is one unit of width per operation.
+/// Each operation rounds to nearest and then widens by two unit roundoffs, instead of switching the rounding mode: the
+/// same bytes on every compiler, no per-thread state, no -frounding-math. The cost is one unit of width per operation.
 #pragma once
 
 #include <algorithm>
@@ -29,13 +29,19 @@ struct Interval {
 };
 
 /// Lower and upper bounds of the exact value whose round-to-nearest result is r.
-inline double widen_down(double r) { return r - (std::fabs(r) * (2 * budget::kUnitRoundoff) + budget::kUnderflowGuard); }
+inline double widen_down(double r) {
+    return r - (std::fabs(r) * (2 * budget::kUnitRoundoff) + budget::kUnderflowGuard);
+}
 inline double widen_up(double r) { return r + (std::fabs(r) * (2 * budget::kUnitRoundoff) + budget::kUnderflowGuard); }
 
 inline Interval hull(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
-inline Interval operator+(const Interval& a, const Interval& b) { return {widen_down(a.lo + b.lo), widen_up(a.hi + b.hi)}; }
-inline Interval operator-(const Interval& a, const Interval& b) { return {widen_down(a.lo - b.hi), widen_up(a.hi - b.lo)}; }
+inline Interval operator+(const Interval& a, const Interval& b) {
+    return {widen_down(a.lo + b.lo), widen_up(a.hi + b.hi)};
+}
+inline Interval operator-(const Interval& a, const Interval& b) {
+    return {widen_down(a.lo - b.hi), widen_up(a.hi - b.lo)};
+}
 inline Interval operator*(const Interval& a, const Interval& b) {
     const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
     return {widen_down(std::min(std::min(p, q), std::min(r, s))), widen_up(std::max(std::max(p, q), std::max(r, s)))};

@@ -30,7 +30,8 @@ int exact_sign(const Derivative& q, double t) {
     return sgn(mpq_class((u * static_cast<long>(q.a) + 2 * static_cast<long>(q.b)) * u + static_cast<long>(q.c)));
 }
 
-/// Smallest enclosure around an approximate root whose ends show the sign change; none when the change can't be seen in doubles.
+/// Smallest enclosure around an approximate root whose ends show the sign change; none when the change can't be seen in
+/// doubles.
 bool enclose(const Derivative& q, double root, std::vector<Interval>& out) {
     for (double delta = budget::kUnitRoundoff; delta < 1; delta *= 4) {
         const double lo = std::max(0.0, root - delta), hi = std::min(1.0, root + delta);
@@ -53,7 +54,8 @@ std::vector<double> approximate_roots(const Derivative& q) {
         return sign_of(q.b) * sign_of(at1) < 0 ? std::vector{static_cast<double>(-2 * b / a)} : std::vector<double>{};
     }
     if (s1 == 0) {
-        return sign_of(q.c) * sign_of(static_cast<Int128>(q.a) - q.c) > 0 ? std::vector{static_cast<double>(c / a)} : std::vector<double>{};
+        return sign_of(q.c) * sign_of(static_cast<Int128>(q.a) - q.c) > 0 ? std::vector{static_cast<double>(c / a)}
+                                                                          : std::vector<double>{};
     }
     const Int128 discriminant = static_cast<Int128>(q.b) * q.b - static_cast<Int128>(q.a) * q.c;
     if (discriminant <= 0) return {};
@@ -69,7 +71,8 @@ std::vector<double> approximate_roots(const Derivative& q) {
 void add_extrema(const Curve& c, Axis axis, std::vector<Interval>& out) {
     const Derivative q = derivative(c, axis);
     std::vector<Interval> found;
-    for (double root : approximate_roots(q)) enclose(q, root, found);
+    for (double root : approximate_roots(q))
+        enclose(q, root, found);
     if (found.size() == 2 && found[0].overlaps(found[1])) return; // a wiggle below one ulp
     out.insert(out.end(), found.begin(), found.end());
 }
@@ -84,8 +87,10 @@ std::vector<Interval> extrema(const Curve& c) {
     std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.mid() < b.mid(); });
     std::vector<Interval> out;
     for (const Interval& t : all) {
-        if (!out.empty() && out.back().overlaps(t)) out.back() = hull(out.back(), t);
-        else out.push_back(t);
+        if (!out.empty() && out.back().overlaps(t))
+            out.back() = hull(out.back(), t);
+        else
+            out.push_back(t);
     }
     return out;
 }

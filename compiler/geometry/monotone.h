@@ -8,9 +8,10 @@
 
 namespace fetexc {
 
-/// Enclosures, ascending and disjoint, of the parameters in (0,1) where x'(t) or y'(t) changes sign. How many there are is decided
-/// exactly (integer discriminants), each enclosure by an exact sign change. Extrema of both axes that can't be told apart (a cusp)
-/// come as one. Two extrema of one axis closer than an ulp (a wiggle below any unit) are left out.
+/// Enclosures, ascending and disjoint, of the parameters in (0,1) where x'(t) or y'(t) changes sign. How many there are
+/// is decided exactly (integer discriminants), each enclosure by an exact sign change. Extrema of both axes that can't
+/// be told apart (a cusp) come as one. Two extrema of one axis closer than an ulp (a wiggle below any unit) are left
+/// out.
 std::vector<Interval> extrema(const Curve& c);
 
 } // namespace fetexc

@@ -7,21 +7,24 @@
 namespace fetexc {
 
 Polynomial trimmed(Polynomial p) {
-    while (!p.empty() && p.back() == 0) p.pop_back();
+    while (!p.empty() && p.back() == 0)
+        p.pop_back();
     return p;
 }
 
 Polynomial operator+(const Polynomial& a, const Polynomial& b) {
     Polynomial out = a.size() < b.size() ? b : a;
     const Polynomial& other = a.size() < b.size() ? a : b;
-    for (std::size_t i = 0; i < other.size(); ++i) out[i] += other[i];
+    for (std::size_t i = 0; i < other.size(); ++i)
+        out[i] += other[i];
     return trimmed(std::move(out));
 }
 
 Polynomial operator-(const Polynomial& a, const Polynomial& b) {
     Polynomial out = a;
     out.resize(std::max(a.size(), b.size()));
-    for (std::size_t i = 0; i < b.size(); ++i) out[i] -= b[i];
+    for (std::size_t i = 0; i < b.size(); ++i)
+        out[i] -= b[i];
     return trimmed(std::move(out));
 }
 
@@ -29,7 +32,8 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     if (a.empty() || b.empty()) return {};
     Polynomial out(a.size() + b.size() - 1);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        for (std::size_t j = 0; j < b.size(); ++j) out[i + j] += a[i] * b[j];
+        for (std::size_t j = 0; j < b.size(); ++j)
+            out[i + j] += a[i] * b[j];
     }
     return trimmed(std::move(out));
 }
@@ -39,9 +43,12 @@ mpz_class to_mpz(std::int64_t v) { return mpz_class(static_cast<long>(v)); }
 Polynomial power_basis(const Curve& c, Axis axis) {
     const auto v = [&](std::size_t i) { return to_mpz(axis == Axis::X ? c.p[i].x : c.p[i].y); };
     switch (c.degree) {
-    case 1: return trimmed({v(0), v(1) - v(0)});
-    case 2: return trimmed({v(0), 2 * (v(1) - v(0)), v(2) - 2 * v(1) + v(0)});
-    default: return trimmed({v(0), 3 * (v(1) - v(0)), 3 * (v(2) - 2 * v(1) + v(0)), v(3) - 3 * v(2) + 3 * v(1) - v(0)});
+    case 1:
+        return trimmed({v(0), v(1) - v(0)});
+    case 2:
+        return trimmed({v(0), 2 * (v(1) - v(0)), v(2) - 2 * v(1) + v(0)});
+    default:
+        return trimmed({v(0), 3 * (v(1) - v(0)), 3 * (v(2) - 2 * v(1) + v(0)), v(3) - 3 * v(2) + 3 * v(1) - v(0)});
     }
 }
 
@@ -54,8 +61,12 @@ Polynomial constant(const mpz_class& v) { return trimmed({v}); }
 /// Bezout matrix entries of (f_i), (g_i) with f_0 = p_0 − X(s), g_0 = q_0 − Y(s): b(i,j) = f_i·g_j − f_j·g_i.
 struct Bezout {
     Polynomial p, q, x, y;
-    [[nodiscard]] Polynomial f(std::size_t i) const { return i == 0 ? constant(coefficient(p, 0)) - x : constant(coefficient(p, i)); }
-    [[nodiscard]] Polynomial g(std::size_t i) const { return i == 0 ? constant(coefficient(q, 0)) - y : constant(coefficient(q, i)); }
+    [[nodiscard]] Polynomial f(std::size_t i) const {
+        return i == 0 ? constant(coefficient(p, 0)) - x : constant(coefficient(p, i));
+    }
+    [[nodiscard]] Polynomial g(std::size_t i) const {
+        return i == 0 ? constant(coefficient(q, 0)) - y : constant(coefficient(q, i));
+    }
     [[nodiscard]] Polynomial operator()(std::size_t i, std::size_t j) const { return f(i) * g(j) - f(j) * g(i); }
 };
 
@@ -72,7 +83,8 @@ Polynomial eliminate(const Curve& a, const Curve& b) {
 
 mpq_class evaluate(const Polynomial& p, const mpq_class& t) {
     mpq_class v = 0;
-    for (std::size_t i = p.size(); i-- > 0;) v = v * t + p[i];
+    for (std::size_t i = p.size(); i-- > 0;)
+        v = v * t + p[i];
     return v;
 }
 

@@ -22,12 +22,14 @@ mpz_class to_mpz(std::int64_t v);
 /// Power basis of one coordinate (absolute), trimmed.
 Polynomial power_basis(const Curve& c, Axis axis);
 
-/// R(s): vanishes exactly where A(s) lies on the algebraic curve of B (Bezout resultant). Empty when A lies on it entirely.
+/// R(s): vanishes exactly where A(s) lies on the algebraic curve of B (Bezout resultant). Empty when A lies on it
+/// entirely.
 Polynomial eliminate(const Curve& a, const Curve& b);
 
 mpq_class evaluate(const Polynomial& p, const mpq_class& t);
 
-/// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's algebraic kernel.
+/// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's
+/// algebraic kernel.
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, double lo, double hi, int bits);
 
 } // namespace fetexc

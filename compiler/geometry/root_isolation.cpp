@@ -28,7 +28,8 @@ std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, 
     const std::lock_guard lock(mutex);
     std::vector<Integer> coefficients;
     coefficients.reserve(p.size());
-    for (const mpz_class& c : p) coefficients.emplace_back(Integer(c.get_mpz_t()));
+    for (const mpz_class& c : p)
+        coefficients.emplace_back(Integer(c.get_mpz_t()));
     Kernel kernel;
     const Kernel::Polynomial_1 square_free =
         kernel.make_square_free_1_object()(Kernel::Polynomial_1(coefficients.begin(), coefficients.end()));

@@ -42,7 +42,8 @@ struct Use {
 
 Curve reversed(const Curve& c) {
     std::array<IntPoint, 4> p{};
-    for (int i = 0; i <= c.degree; ++i) p[i] = c.p[c.degree - i];
+    for (int i = 0; i <= c.degree; ++i)
+        p[i] = c.p[c.degree - i];
     return make_curve(c.degree, p);
 }
 
@@ -82,7 +83,8 @@ class Preparer {
         merge_lines();
         const std::size_t first_curve = weighted_.size();
         merge_curves();
-        for (const Weighted& w : weighted_) out_.curves.push_back(w.curve);
+        for (const Weighted& w : weighted_)
+            out_.curves.push_back(w.curve);
         emit_all(shared, first_curve);
         stats_.pieces = out_.arcs.size();
         stats_.vertices = out_.vertices.size();
@@ -105,14 +107,16 @@ class Preparer {
     void collect() {
         for (std::uint32_t shape = 0; shape < scene_.shapes.size(); ++shape) {
             const Shape& s = scene_.shapes[shape];
-            for (std::uint32_t k = s.first; k < s.first + s.count; ++k) collect_segment(scene_.segments[k], shape);
+            for (std::uint32_t k = s.first; k < s.first + s.count; ++k)
+                collect_segment(scene_.segments[k], shape);
         }
     }
 
     void collect_segment(const Segment& segment, std::uint32_t shape) {
         ++stats_.segments;
         std::array<IntPoint, 4> p{};
-        for (int i = 0; i <= segment.degree; ++i) p[i] = planar(segment.p[i]);
+        for (int i = 0; i <= segment.degree; ++i)
+            p[i] = planar(segment.p[i]);
         Use use{make_curve(segment.degree, p), shape, 1};
         if (use.curve.degree < segment.degree) ++stats_.degree_reduced;
         if (use.curve.degree == 1 && use.curve.first() == use.curve.last()) {
@@ -128,11 +132,13 @@ class Preparer {
     void merge_lines() {
         std::vector<std::pair<LineKey, std::uint32_t>> order;
         order.reserve(lines_.size());
-        for (std::uint32_t k = 0; k < lines_.size(); ++k) order.emplace_back(line_key(lines_[k].curve), k);
+        for (std::uint32_t k = 0; k < lines_.size(); ++k)
+            order.emplace_back(line_key(lines_[k].curve), k);
         std::sort(order.begin(), order.end());
         for (std::size_t i = 0; i < order.size();) {
             std::size_t end = i + 1;
-            while (end < order.size() && order[end].first == order[i].first) ++end;
+            while (end < order.size() && order[end].first == order[i].first)
+                ++end;
             merge_collinear({order.data() + i, end - i});
             i = end;
         }
@@ -154,7 +160,8 @@ class Preparer {
         std::vector<Contribution> active;
         for (std::size_t i = 0; i < events.size();) {
             const IntPoint at = events[i].at;
-            for (; i < events.size() && events[i].at == at; ++i) add(active, events[i].shape, events[i].winding);
+            for (; i < events.size() && events[i].at == at; ++i)
+                add(active, events[i].shape, events[i].winding);
             drop_zero(active);
             if (i == events.size() || active.empty()) continue;
             weighted_.push_back({make_curve(1, {at, events[i].at, IntPoint{}, IntPoint{}}), active});
@@ -164,19 +171,22 @@ class Preparer {
 
     void merge_curves() {
         std::sort(bent_.begin(), bent_.end(), [](const Use& a, const Use& b) {
-            return std::tie(a.curve.degree, a.curve.p, a.shape, a.winding) < std::tie(b.curve.degree, b.curve.p, b.shape, b.winding);
+            return std::tie(a.curve.degree, a.curve.p, a.shape, a.winding) <
+                   std::tie(b.curve.degree, b.curve.p, b.shape, b.winding);
         });
         for (std::size_t i = 0; i < bent_.size();) {
             Weighted w{bent_[i].curve, {}};
             const std::size_t begin = i;
-            for (; i < bent_.size() && same_polygon(bent_[i].curve, w.curve); ++i) add(w.sums, bent_[i].shape, bent_[i].winding);
+            for (; i < bent_.size() && same_polygon(bent_[i].curve, w.curve); ++i)
+                add(w.sums, bent_[i].shape, bent_[i].winding);
             stats_.pieces_shared += i - begin - 1;
             drop_zero(w.sums);
             if (!w.sums.empty()) weighted_.push_back(std::move(w));
         }
     }
 
-    // --- emission ------------------------------------------------------------------------------------------------------------
+    // --- emission
+    // ------------------------------------------------------------------------------------------------------------
 
     std::uint32_t vertex_at(IntPoint p) {
         const auto [it, fresh] = ends_.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
@@ -198,7 +208,8 @@ class Preparer {
         std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
         std::vector<bool> grouped(weighted_.size(), false);
         for (const auto& [root, members] : groups) {
-            for (std::uint32_t m : members) grouped[m] = true;
+            for (std::uint32_t m : members)
+                grouped[m] = true;
         }
         for (std::uint32_t k = 0; k < weighted_.size(); ++k) {
             if (grouped[k]) continue;
@@ -206,7 +217,8 @@ class Preparer {
             const End a{Interval(0), vertex_at(c.first())}, b{Interval(1), vertex_at(c.last())};
             emit_monotone(k, a, b, weighted_[k].sums, k >= first_curve);
         }
-        for (const auto& [root, members] : groups) emit_support(root, members);
+        for (const auto& [root, members] : groups)
+            emit_support(root, members);
     }
 
     void emit_monotone(std::uint32_t curve, End from, const End& to, const std::vector<Contribution>& sums, bool bent) {
@@ -233,12 +245,14 @@ class Preparer {
         out_.arcs.push_back(arc);
     }
 
-    // --- curves that share their algebraic curve ---------------------------------------------------------------------------------
+    // --- curves that share their algebraic curve
+    // ---------------------------------------------------------------------------------
 
     std::map<std::uint32_t, std::vector<std::uint32_t>> support_groups(std::span<const SharedSupport> shared) {
         std::map<std::uint32_t, std::uint32_t> parent;
         const auto find = [&](std::uint32_t k) {
-            while (parent.contains(k) && parent[k] != k) k = parent[k];
+            while (parent.contains(k) && parent[k] != k)
+                k = parent[k];
             return k;
         };
         for (const SharedSupport& s : shared) {
@@ -248,7 +262,8 @@ class Preparer {
             parent[std::max(a, b)] = std::min(a, b);
         }
         std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
-        for (const auto& [k, p] : parent) groups[find(k)].push_back(k);
+        for (const auto& [k, p] : parent)
+            groups[find(k)].push_back(k);
         return groups;
     }
 
@@ -264,7 +279,8 @@ class Preparer {
         std::vector<Member> members;
         std::map<std::uint32_t, Interval> cuts; // vertex → parameter on the root
         for (std::uint32_t k : curves) {
-            Member m{k, {1, 0, Interval(0), Interval(1)}, {}, {}, vertex_at(out_.curves[k].first()), vertex_at(out_.curves[k].last())};
+            Member m{k,  {1, 0, Interval(0), Interval(1)},  {},
+                     {}, vertex_at(out_.curves[k].first()), vertex_at(out_.curves[k].last())};
             if (k != root && !same_support(out_.curves[k], out_.curves[root], m.map)) continue;
             m.lo = m.map.start, m.hi = m.map.end;
             if (m.map.alpha < 0) std::swap(m.lo, m.hi), std::swap(m.v_lo, m.v_hi);
@@ -272,9 +288,11 @@ class Preparer {
             members.push_back(m);
         }
         std::vector<std::pair<double, std::uint32_t>> order;
-        for (const auto& [vertex, t] : cuts) order.emplace_back(t.mid(), vertex);
+        for (const auto& [vertex, t] : cuts)
+            order.emplace_back(t.mid(), vertex);
         std::sort(order.begin(), order.end());
-        for (std::size_t i = 0; i + 1 < order.size(); ++i) emit_elementary(members, cuts, order[i], order[i + 1]);
+        for (std::size_t i = 0; i + 1 < order.size(); ++i)
+            emit_elementary(members, cuts, order[i], order[i + 1]);
     }
 
     void emit_elementary(const std::vector<Member>& members, const std::map<std::uint32_t, Interval>& cuts,
@@ -314,7 +332,8 @@ class Preparer {
     ArcSet out_;
     struct PointHash {
         std::size_t operator()(const IntPoint& p) const {
-            return static_cast<std::size_t>(p.x) * 0x9E3779B97F4A7C15ull ^ (static_cast<std::size_t>(p.y) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
+            return static_cast<std::size_t>(p.x) * 0x9E3779B97F4A7C15ull ^
+                   (static_cast<std::size_t>(p.y) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
         }
     };
     std::unordered_map<IntPoint, std::uint32_t, PointHash> ends_;

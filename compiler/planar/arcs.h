@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Prepared input of the planar map (DESIGN §5.1): monotone arcs, each stretch of plane curve once, with what crossing it changes.
+/// Prepared input of the planar map (DESIGN §5.1): monotone arcs, each stretch of plane curve once, with what crossing
+/// it changes.
 #pragma once
 
 #include <cstdint>
@@ -55,9 +56,9 @@ struct ArcSet {
     }
 };
 
-/// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges identical,
-/// reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of curves found by an earlier
-/// pass over the same scene; their common stretches become one arc.
+/// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges
+/// identical, reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of
+/// curves found by an earlier pass over the same scene; their common stretches become one arc.
 ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats);
 
 } // namespace fetexc

@@ -44,7 +44,8 @@ bool flat(const Interval& v) { return v.lo == v.hi; }
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<Bounds>& bounds, ChunkResult& out) : set_(set), bounds_(bounds), out_(out) {}
+    PairTest(const ArcSet& set, const std::vector<Bounds>& bounds, ChunkResult& out)
+        : set_(set), bounds_(bounds), out_(out) {}
 
     void operator()(std::uint32_t ia, std::uint32_t ib) {
         const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
@@ -57,12 +58,14 @@ class PairTest {
         if (intersect_certified(sa, sb, known_, found_) == PairOutcome::Certified) {
             ++out_.certified;
         } else if (a.curve == b.curve) {
-            ++out_.certified; // a cubic has one double point at most: the cusp (or loop below resolution) where the two arcs meet
+            ++out_.certified; // a cubic has one double point at most: the cusp (or loop below resolution) where the two
+                              // arcs meet
         } else {
             ++out_.exact;
             decide_exactly(a, b, sa, sb);
         }
-        for (const Contact& c : found_) add(ia, ib, c);
+        for (const Contact& c : found_)
+            add(ia, ib, c);
     }
 
   private:
@@ -111,7 +114,8 @@ class PairTest {
         intersect_exact(sa, sb, hits);
         for (const ExactHit& h : hits) {
             const Contact c{h.s, h.t};
-            const bool seen = std::any_of(known_.begin(), known_.end(), [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
+            const bool seen = std::any_of(known_.begin(), known_.end(),
+                                          [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
             if (!seen) found_.push_back(c);
         }
     }
@@ -139,15 +143,16 @@ std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<Bounds>& b
     return items;
 }
 
-ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs,
-                       unsigned threads) {
+ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds,
+                       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads) {
     constexpr std::size_t chunk = 1024;
     std::vector<ChunkResult> results((pairs.size() + chunk - 1) / chunk);
     tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
     arena.execute([&] {
         tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t k) {
             PairTest test(set, bounds, results[k]);
-            for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i) test(pairs[i].first, pairs[i].second);
+            for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
+                test(pairs[i].first, pairs[i].second);
         });
     });
     ChunkResult all;
@@ -171,17 +176,21 @@ void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
         const Curve &a = set.curves[set.arcs[c.a].curve], &b = set.curves[set.arcs[c.b].curve];
         c.vertex = static_cast<std::uint32_t>(set.vertices.size());
         set.vertices.push_back({meet(value_over(a, Axis::X, c.at.s), value_over(b, Axis::X, c.at.t)),
-                                meet(value_over(a, Axis::Y, c.at.s), value_over(b, Axis::Y, c.at.t)), false, {}});
+                                meet(value_over(a, Axis::Y, c.at.s), value_over(b, Axis::Y, c.at.t)),
+                                false,
+                                {}});
     }
 }
 
-// --- vertices that can't be told apart --------------------------------------------------------------------------------------------
+// --- vertices that can't be told apart
+// --------------------------------------------------------------------------------------------
 
 class UnionFind {
   public:
     explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
     std::uint32_t find(std::uint32_t k) {
-        while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+        while (parent_[k] != k)
+            k = parent_[k] = parent_[parent_[k]];
         return k;
     }
     void unite(std::uint32_t a, std::uint32_t b) {
@@ -200,7 +209,8 @@ std::vector<std::tuple<double, double, std::uint32_t>> cells_of(const std::vecto
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
         const Vertex& p = vertices[v];
         for (double x = std::floor(p.x.lo); x <= p.x.hi; x += 1) {
-            for (double y = std::floor(p.y.lo); y <= p.y.hi; y += 1) cells.emplace_back(x, y, v);
+            for (double y = std::floor(p.y.lo); y <= p.y.hi; y += 1)
+                cells.emplace_back(x, y, v);
         }
     }
     std::sort(cells.begin(), cells.end());
@@ -222,8 +232,10 @@ std::vector<std::uint32_t> identify_vertices(std::vector<Vertex>& vertices) {
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
         const std::uint32_t r = representative[v] = same.find(v);
         if (r == v || vertices[r].integral) continue;
-        if (vertices[v].integral) vertices[r] = vertices[v];
-        else vertices[r] = {meet(vertices[r].x, vertices[v].x), meet(vertices[r].y, vertices[v].y), false, {}};
+        if (vertices[v].integral)
+            vertices[r] = vertices[v];
+        else
+            vertices[r] = {meet(vertices[r].x, vertices[v].x), meet(vertices[r].y, vertices[v].y), false, {}};
     }
     return representative;
 }
@@ -262,7 +274,8 @@ void cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, const 
     std::size_t i = 0;
     for (std::uint32_t arc = 0; arc < out.set.arcs.size(); ++arc) {
         const std::size_t begin = i;
-        while (i < cuts.size() && cuts[i].arc == arc) ++i;
+        while (i < cuts.size() && cuts[i].arc == arc)
+            ++i;
         emit_edges(out, arc, {cuts.data() + begin, i - begin}, rep);
     }
 }
@@ -271,14 +284,16 @@ void cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, const 
 
 Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
     std::vector<SharedSupport> shared;
-    // A pass that finds partial overlaps starts again with them joined; each pass adds at least one pair, real art needs none or one.
+    // A pass that finds partial overlaps starts again with them joined; each pass adds at least one pair, real art
+    // needs none or one.
     for (;;) {
         PlanarStats pass = {};
         Arrangement out;
         out.set = prepare_arcs(scene, grid, shared, pass);
         std::vector<Bounds> bounds;
         bounds.reserve(out.set.arcs.size());
-        for (const Arc& a : out.set.arcs) bounds.push_back(bounds_of(out.set, a));
+        for (const Arc& a : out.set.arcs)
+            bounds.push_back(bounds_of(out.set, a));
         const auto pairs = overlapping_pairs(canvas_boxes(grid, bounds));
         ChunkResult found = test_pairs(out.set, bounds, pairs, threads);
         std::sort(found.shared.begin(), found.shared.end());

@@ -9,7 +9,8 @@
 namespace fetexc {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_pairs(const std::vector<BoxItem>& items) {
-    using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 2, const BoxItem*, CGAL::Box_intersection_d::ID_EXPLICIT>;
+    using Box =
+        CGAL::Box_intersection_d::Box_with_handle_d<double, 2, const BoxItem*, CGAL::Box_intersection_d::ID_EXPLICIT>;
     std::vector<Box> boxes;
     boxes.reserve(items.size());
     for (const BoxItem& item : items) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The texel grid in planar space.
 ///
-/// Planar space is lattice space times (kx, ky), the smallest integers that put every grid line on an integer: texel (i,j) covers
-/// [i·px,(i+1)·px)×[j·py,(j+1)·py). Coordinates stay below 2^43: kLatticeLimit (2^28) times at most 2^14 texels, and some slack.
+/// Planar space is lattice space times (kx, ky), the smallest integers that put every grid line on an integer: texel
+/// (i,j) covers [i·px,(i+1)·px)×[j·py,(j+1)·py). Coordinates stay below 2^43: kLatticeLimit (2^28) times at most 2^14
+/// texels, and some slack.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,9 @@ struct Grid {
 };
 
 inline Grid make_grid(const Extent& extent, std::uint32_t width, std::uint32_t height) {
-    const auto factor = [](std::int64_t lattice, std::uint32_t n) { return n / std::gcd(lattice, static_cast<std::int64_t>(n)); };
+    const auto factor = [](std::int64_t lattice, std::uint32_t n) {
+        return n / std::gcd(lattice, static_cast<std::int64_t>(n));
+    };
     Grid g;
     g.width = width, g.height = height;
     g.kx = factor(extent.lattice_w, width), g.ky = factor(extent.lattice_h, height);

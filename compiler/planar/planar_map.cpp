@@ -27,7 +27,8 @@ bool is_line(HalfStep h) { return h >= 0 && h % 2 == 0; }
 } // namespace
 
 void add_winding(Windings& w, std::uint32_t shape, std::int32_t change) {
-    const auto it = std::lower_bound(w.begin(), w.end(), shape, [](const Contribution& c, std::uint32_t s) { return c.shape < s; });
+    const auto it =
+        std::lower_bound(w.begin(), w.end(), shape, [](const Contribution& c, std::uint32_t s) { return c.shape < s; });
     if (it == w.end() || it->shape != shape) {
         w.insert(it, {shape, change});
     } else if ((it->winding += change) == 0) {
@@ -42,7 +43,8 @@ class PlanarMap::Builder {
 
     void run() {
         add_vertices();
-        for (std::uint32_t e = 0; e < map_.arrangement_.edges.size(); ++e) walk(e);
+        for (std::uint32_t e = 0; e < map_.arrangement_.edges.size(); ++e)
+            walk(e);
         merge_nodes();
         sort_into_texels();
         sort_steps();
@@ -68,8 +70,10 @@ class PlanarMap::Builder {
 
     std::uint32_t add_node(const Interval& x, const Interval& y, HalfStep hx, HalfStep hy) {
         const auto n = static_cast<std::uint32_t>(map_.nodes_.size());
-        map_.nodes_.push_back({is_line(hx) ? on_line(hx, grid_.px) : x.mid(), is_line(hy) ? on_line(hy, grid_.py) : y.mid(), hx, hy});
-        if (is_line(hx) || is_line(hy)) placed_.push_back({hx, hy, is_line(hx) ? (is_line(hy) ? Interval(0) : y) : x, n});
+        map_.nodes_.push_back(
+            {is_line(hx) ? on_line(hx, grid_.px) : x.mid(), is_line(hy) ? on_line(hy, grid_.py) : y.mid(), hx, hy});
+        if (is_line(hx) || is_line(hy))
+            placed_.push_back({hx, hy, is_line(hx) ? (is_line(hy) ? Interval(0) : y) : x, n});
         return n;
     }
 
@@ -94,7 +98,8 @@ class PlanarMap::Builder {
         std::sort(crossings_.begin() + static_cast<std::ptrdiff_t>(before_lines), crossings_.end(),
                   [](const Crossing& p, const Crossing& q) { return p.order < q.order; });
         crossings_.push_back({0, edge.tb, edge.vb});
-        for (std::size_t k = 0; k + 1 < crossings_.size(); ++k) emit(e, crossings_[k], crossings_[k + 1]);
+        for (std::size_t k = 0; k + 1 < crossings_.size(); ++k)
+            emit(e, crossings_[k], crossings_[k + 1]);
     }
 
     /// Entirely right of, above or below the canvas.
@@ -114,18 +119,24 @@ class PlanarMap::Builder {
             const Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
             const Interval w = value_over(*s.curve, vertical ? Axis::Y : Axis::X, t);
             HalfStep hx = h, hy = h;
-            if (vertical) hy = clamp_between(half_step(w, grid_.py, grid_.height), a.hy, b.hy);
-            else hx = clamp_between(half_step(w, grid_.px, grid_.width), a.hx, b.hx);
+            if (vertical)
+                hy = clamp_between(half_step(w, grid_.py, grid_.height), a.hy, b.hy);
+            else
+                hx = clamp_between(half_step(w, grid_.px, grid_.width), a.hx, b.hx);
             const HalfStep order = dx * (hx - a.hx) + dy * (hy - a.hy);
             const bool corner = is_line(hx) && is_line(hy);
-            if (corner && std::any_of(crossings_.begin() + 1, crossings_.end(), [&](const Crossing& c) { return c.order == order; })) continue;
+            if (corner && std::any_of(crossings_.begin() + 1, crossings_.end(),
+                                      [&](const Crossing& c) { return c.order == order; }))
+                continue;
             if (at_end(hx, hy, a) || at_end(hx, hy, b)) continue;
             ++stats_.grid_crossings;
             crossings_.push_back({order, t, add_node(vertical ? Interval(v) : w, vertical ? w : Interval(v), hx, hy)});
         }
     }
 
-    static bool at_end(HalfStep hx, HalfStep hy, const GridNode& n) { return is_line(hx) && is_line(hy) && n.hx == hx && n.hy == hy; }
+    static bool at_end(HalfStep hx, HalfStep hy, const GridNode& n) {
+        return is_line(hx) && is_line(hy) && n.hx == hx && n.hy == hy;
+    }
 
     void emit(std::uint32_t e, const Crossing& p, const Crossing& q) {
         const GridNode &a = map_.nodes_[p.node], &b = map_.nodes_[q.node];
@@ -133,19 +144,26 @@ class PlanarMap::Builder {
         if (a.hy == b.hy && is_line(a.hy)) return;
         const HalfStep column = std::min(a.hx, b.hx) >> 1, row = std::min(a.hy, b.hy) >> 1;
         if (column < 0) left_of_canvas(e, a, b);
-        if (column < 0 || row < 0 || column >= static_cast<HalfStep>(grid_.width) || row >= static_cast<HalfStep>(grid_.height)) return;
-        pieces_.push_back({{e, {p.t.lo, q.t.hi}, p.node, q.node}, static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column)});
+        if (column < 0 || row < 0 || column >= static_cast<HalfStep>(grid_.width) ||
+            row >= static_cast<HalfStep>(grid_.height))
+            return;
+        pieces_.push_back({{e, {p.t.lo, q.t.hi}, p.node, q.node},
+                           static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column)});
     }
 
-    void along_line(std::uint32_t e, const GridNode& a, const GridNode& b) { add_steps(e, a, b, static_cast<std::uint32_t>(a.hx / 2)); }
+    void along_line(std::uint32_t e, const GridNode& a, const GridNode& b) {
+        add_steps(e, a, b, static_cast<std::uint32_t>(a.hx / 2));
+    }
     void left_of_canvas(std::uint32_t e, const GridNode& a, const GridNode& b) { add_steps(e, a, b, 0); }
 
-    /// Rows whose top line the edge crosses, upper end included, lower end not; for the bottom border the other way round.
+    /// Rows whose top line the edge crosses, upper end included, lower end not; for the bottom border the other way
+    /// round.
     void add_steps(std::uint32_t e, const GridNode& a, const GridNode& b, std::uint32_t line) {
         const HalfStep lo = std::min(a.hy, b.hy), hi = std::max(a.hy, b.hy);
         const std::uint32_t arc = map_.arrangement_.edges[e].arc;
         const std::int32_t sign = before(a, b) ? 1 : -1; // a is at the smaller parameter
-        for (HalfStep j = std::max<HalfStep>(0, (lo + 1) / 2); 2 * j < hi && j < static_cast<HalfStep>(grid_.height); ++j) {
+        for (HalfStep j = std::max<HalfStep>(0, (lo + 1) / 2); 2 * j < hi && j < static_cast<HalfStep>(grid_.height);
+             ++j) {
             map_.steps_.push_back({static_cast<std::uint32_t>(j), line, arc, sign});
         }
         const HalfStep bottom = 2 * static_cast<HalfStep>(grid_.height);
@@ -164,7 +182,8 @@ class PlanarMap::Builder {
             const std::size_t begin = k;
             for (++k; k < placed_.size() && joins(first, placed_[k]); ++k) {
                 same[placed_[k].node] = first.node;
-                first.along = {std::max(first.along.lo, placed_[k].along.lo), std::min(first.along.hi, placed_[k].along.hi)};
+                first.along = {std::max(first.along.lo, placed_[k].along.lo),
+                               std::min(first.along.hi, placed_[k].along.hi)};
             }
             if (k - begin > 1) place_along(first);
         }
@@ -174,7 +193,9 @@ class PlanarMap::Builder {
         }
     }
 
-    static bool joins(const Placed& a, const Placed& b) { return a.hx == b.hx && a.hy == b.hy && a.along.overlaps(b.along); }
+    static bool joins(const Placed& a, const Placed& b) {
+        return a.hx == b.hx && a.hy == b.hy && a.along.overlaps(b.along);
+    }
 
     /// The joined node stands where all enclosures agree (exactly, if one of them is exact).
     void place_along(const Placed& p) {
@@ -186,11 +207,13 @@ class PlanarMap::Builder {
         const std::size_t texels = static_cast<std::size_t>(grid_.width) * grid_.height;
         map_.texel_start_.assign(texels + 1, 0);
         std::erase_if(pieces_, [](const Piece& p) { return p.sub.n0 == p.sub.n1; });
-        for (const Piece& p : pieces_) ++map_.texel_start_[p.texel + 1];
+        for (const Piece& p : pieces_)
+            ++map_.texel_start_[p.texel + 1];
         std::partial_sum(map_.texel_start_.begin(), map_.texel_start_.end(), map_.texel_start_.begin());
         std::vector<std::uint32_t> next(map_.texel_start_.begin(), map_.texel_start_.end() - 1);
         map_.sub_edges_.resize(pieces_.size());
-        for (const Piece& p : pieces_) map_.sub_edges_[next[p.texel]++] = p.sub;
+        for (const Piece& p : pieces_)
+            map_.sub_edges_[next[p.texel]++] = p.sub;
     }
 
     void sort_steps() {
@@ -198,7 +221,8 @@ class PlanarMap::Builder {
             return std::tie(a.row, a.line, a.arc, a.sign) < std::tie(b.row, b.line, b.arc, b.sign);
         });
         map_.step_start_.assign(grid_.height + 2, 0);
-        for (const RowStep& s : map_.steps_) ++map_.step_start_[s.row + 1];
+        for (const RowStep& s : map_.steps_)
+            ++map_.step_start_[s.row + 1];
         std::partial_sum(map_.step_start_.begin(), map_.step_start_.end(), map_.step_start_.begin());
     }
 
@@ -249,7 +273,8 @@ int PlanarMap::sweep_sign(const SubEdge& s) const { return before(nodes_[s.n0], 
 void PlanarMap::cross_row_line(Windings& w, const SubEdge& s, HalfStep line) const {
     if (nodes_[s.n0].hy != line && nodes_[s.n1].hy != line) return;
     const int sign = sweep_sign(s);
-    for (const Contribution& c : contributions_of(s)) add_winding(w, c.shape, sign * c.winding);
+    for (const Contribution& c : contributions_of(s))
+        add_winding(w, c.shape, sign * c.winding);
 }
 
 } // namespace fetexc

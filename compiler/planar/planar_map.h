@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The arrangement cut at the texel grid (DESIGN §5.2): for each texel the sub-edges inside it, and the winding numbers at its corner.
+/// The arrangement cut at the texel grid (DESIGN §5.2): for each texel the sub-edges inside it, and the winding numbers
+/// at its corner.
 #pragma once
 
 #include <span>
@@ -9,11 +10,12 @@
 
 namespace fetexc {
 
-/// Position in half steps of the grid: even 2i = on grid line i, odd 2i+1 = between lines i and i+1; −1 and 2n+1 outside the canvas.
+/// Position in half steps of the grid: even 2i = on grid line i, odd 2i+1 = between lines i and i+1; −1 and 2n+1
+/// outside the canvas.
 using HalfStep = std::int32_t;
 
-/// A vertex or a crossing with a grid line. Each is one object: neighbouring texels share it, so they agree by construction.
-/// A node whose enclosure holds a grid line lies on it (x or y is then exactly the line's).
+/// A vertex or a crossing with a grid line. Each is one object: neighbouring texels share it, so they agree by
+/// construction. A node whose enclosure holds a grid line lies on it (x or y is then exactly the line's).
 struct GridNode {
     double x = 0, y = 0; ///< planar space
     HalfStep hx = 0, hy = 0;
@@ -26,7 +28,8 @@ struct SubEdge {
     std::uint32_t n0 = 0, n1 = 0;
 };
 
-/// Winding change when stepping right over a grid line (or, for line 0, from far left onto the canvas) just below a row's top.
+/// Winding change when stepping right over a grid line (or, for line 0, from far left onto the canvas) just below a
+/// row's top.
 struct RowStep {
     std::uint32_t row = 0, line = 0, arc = 0;
     std::int32_t sign = 1;
@@ -47,21 +50,23 @@ class PlanarMap {
     [[nodiscard]] Stretch stretch_of(const SubEdge& s) const;
     [[nodiscard]] std::span<const Contribution> contributions_of(const SubEdge& s) const;
 
-    /// Runs along row j from left to right; `visit(i, windings)` gets the winding numbers at the texel's corner (X_i + 0, Y_j + 0), left
-    /// of everything inside the texel; i = width is the right border, seen from inside. For j = height: along the bottom border, seen
-    /// from inside (Y_j − 0).
+    /// Runs along row j from left to right; `visit(i, windings)` gets the winding numbers at the texel's corner (X_i +
+    /// 0, Y_j + 0), left of everything inside the texel; i = width is the right border, seen from inside. For j =
+    /// height: along the bottom border, seen from inside (Y_j − 0).
     template <class Visit> void along_row(std::uint32_t j, Visit&& visit) const {
         Windings w;
         const bool bottom = j == grid_.height;
         std::span<const RowStep> steps = steps_of(j);
         const auto cross_line = [&](std::uint32_t line) {
-            for (; !steps.empty() && steps.front().line == line; steps = steps.subspan(1)) apply(w, steps.front());
+            for (; !steps.empty() && steps.front().line == line; steps = steps.subspan(1))
+                apply(w, steps.front());
         };
         cross_line(0);
         for (std::uint32_t i = 0;; ++i) {
             visit(i, static_cast<const Windings&>(w));
             if (i == grid_.width) return;
-            for (const SubEdge& s : sub_edges(i, bottom ? j - 1 : j)) cross_row_line(w, s, 2 * static_cast<HalfStep>(j));
+            for (const SubEdge& s : sub_edges(i, bottom ? j - 1 : j))
+                cross_row_line(w, s, 2 * static_cast<HalfStep>(j));
             if (i + 1 < grid_.width) cross_line(i + 1);
         }
     }

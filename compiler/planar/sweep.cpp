@@ -6,8 +6,8 @@
 
 namespace fetexc {
 
-bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes, std::span<const SweepEdge> edges,
-                std::span<const Cut> cuts, TexelFrame frame, SweepResult& out) {
+bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes,
+                std::span<const SweepEdge> edges, std::span<const Cut> cuts, TexelFrame frame, SweepResult& out) {
     sub_edges_ = sub_edges, nodes_ = nodes, edges_ = edges, frame_ = frame, out_ = &out;
     out = {};
     prepare(nodes.size());
@@ -23,7 +23,8 @@ bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_
         }
     }
     if (!seen_first_slab_) rank_top_line();
-    for (const Gap& g : gaps_) close_gap(g, kNone);
+    for (const Gap& g : gaps_)
+        close_gap(g, kNone);
     return status_.empty() && cuts.empty();
 }
 
@@ -33,11 +34,14 @@ void Sweep::prepare(std::size_t nodes) {
     level_on_cut_.assign(edges_.size(), false);
     in_count_.assign(nodes, 0);
     first_out_.assign(nodes + 1, 0);
-    for (const SweepEdge& e : edges_) ++first_out_[e.top + 1], ++in_count_[e.bottom];
-    for (std::size_t k = 1; k < first_out_.size(); ++k) first_out_[k] += first_out_[k - 1];
+    for (const SweepEdge& e : edges_)
+        ++first_out_[e.top + 1], ++in_count_[e.bottom];
+    for (std::size_t k = 1; k < first_out_.size(); ++k)
+        first_out_[k] += first_out_[k - 1];
     out_edges_.resize(edges_.size());
     std::vector<std::uint32_t> next(first_out_.begin(), first_out_.end() - 1);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) out_edges_[next[edges_[e].top]++] = e;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+        out_edges_[next[edges_[e].top]++] = e;
 }
 
 Sweep::Side Sweep::side_of(std::uint32_t k) const {
@@ -105,14 +109,16 @@ void Sweep::collect_outgoing(std::uint32_t k) {
         if (!level_on_cut_[out_edges_[i]]) outgoing_.push_back(out_edges_[i]);
     }
     for (std::size_t i = 1; i < outgoing_.size(); ++i) {
-        for (std::size_t p = i; p > 0 && left_of(outgoing_[p], outgoing_[p - 1]); --p) std::swap(outgoing_[p], outgoing_[p - 1]);
+        for (std::size_t p = i; p > 0 && left_of(outgoing_[p], outgoing_[p - 1]); --p)
+            std::swap(outgoing_[p], outgoing_[p - 1]);
     }
 }
 
 /// The edges that end at node k must be neighbours in the status.
 bool Sweep::find_incoming(std::uint32_t k, std::size_t& from) const {
     from = 0;
-    while (from < status_.size() && edges_[status_[from]].bottom != k) ++from;
+    while (from < status_.size() && edges_[status_[from]].bottom != k)
+        ++from;
     for (std::size_t i = from; i < from + in_count_[k]; ++i) {
         if (i >= status_.size() || edges_[status_[i]].bottom != k) return false;
     }
@@ -126,18 +132,21 @@ std::size_t Sweep::locate(std::uint32_t k, std::uint32_t edge) {
     std::size_t lo = 0, hi = status_.size();
     while (lo < hi) {
         const std::size_t mid = (lo + hi) / 2;
-        if (left_of(edge, status_[mid])) hi = mid;
-        else lo = mid + 1;
+        if (left_of(edge, status_[mid]))
+            hi = mid;
+        else
+            lo = mid + 1;
     }
     return lo;
 }
 
-/// The incoming edges [from, from+count) end at node k, its outgoing edges take their place. On a side of the band the faces left and
-/// right of the node aren't connected around it.
+/// The incoming edges [from, from+count) end at node k, its outgoing edges take their place. On a side of the band the
+/// faces left and right of the node aren't connected around it.
 void Sweep::replace(std::uint32_t k, std::size_t from, std::size_t count, Side side) {
     const std::size_t fresh = outgoing_.size();
     const std::uint32_t left = gaps_[from].face, right = gaps_[from + count].face;
-    for (std::size_t i = 0; i <= count; ++i) close_gap(gaps_[from + i], k);
+    for (std::size_t i = 0; i <= count; ++i)
+        close_gap(gaps_[from + i], k);
     const auto position = static_cast<std::ptrdiff_t>(from), removed = static_cast<std::ptrdiff_t>(count);
     status_.erase(status_.begin() + position, status_.begin() + position + removed);
     status_.insert(status_.begin() + position, outgoing_.begin(), outgoing_.end());
@@ -150,9 +159,12 @@ void Sweep::replace(std::uint32_t k, std::size_t from, std::size_t count, Side s
     }
     for (std::size_t i = 0; i <= fresh; ++i) {
         std::uint32_t face = 0;
-        if (i == 0) face = side == Side::Left ? new_face() : left;
-        else if (i == fresh) face = side == Side::Top || side == Side::Right ? new_face() : right;
-        else face = new_face();
+        if (i == 0)
+            face = side == Side::Left ? new_face() : left;
+        else if (i == fresh)
+            face = side == Side::Top || side == Side::Right ? new_face() : right;
+        else
+            face = new_face();
         gaps_[from + i] = open_gap(face, from + i, k);
     }
     for (std::size_t i = 0; i < fresh; ++i) {
@@ -164,12 +176,14 @@ void Sweep::replace(std::uint32_t k, std::size_t from, std::size_t count, Side s
 
 void Sweep::next_band() {
     ++band_;
-    for (std::uint32_t e : status_) out_->portions[portion_[e]].to_cut = true;
+    for (std::uint32_t e : status_)
+        out_->portions[portion_[e]].to_cut = true;
     for (std::size_t g = 0; g < gaps_.size(); ++g) {
         close_gap(gaps_[g], kNone);
         gaps_[g] = open_gap(new_face(), g, kNone);
     }
-    for (std::uint32_t e : status_) add_portion(e, true);
+    for (std::uint32_t e : status_)
+        add_portion(e, true);
 }
 
 namespace {
@@ -190,9 +204,11 @@ Interval position_at(const Stretch& s, Axis level_axis, double level) {
 
 } // namespace
 
-/// e runs left of f where both run: decided by the boxes, or on a level they have in common. They don't cross, so one level is enough.
+/// e runs left of f where both run: decided by the boxes, or on a level they have in common. They don't cross, so one
+/// level is enough.
 bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
-    const GridNode &et = node(edges_[e].top), &eb = node(edges_[e].bottom), &ft = node(edges_[f].top), &fb = node(edges_[f].bottom);
+    const GridNode &et = node(edges_[e].top), &eb = node(edges_[e].bottom), &ft = node(edges_[f].top),
+                   &fb = node(edges_[f].bottom);
     const Range ex{std::min(et.x, eb.x), std::max(et.x, eb.x)}, fx{std::min(ft.x, fb.x), std::max(ft.x, fb.x)};
     if (ex.hi <= fx.lo && ex.lo < fx.hi) return true;
     if (fx.hi <= ex.lo && fx.lo < ex.hi) return false;
@@ -207,7 +223,7 @@ bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
     // From a common top on, below and beside agree: take the axis along which the two have more in common.
     if (y.length() >= x.length()) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
     const int below = order_on_levels(e, f, Axis::X, x.lo, x.hi); // +1: e is below f
-    return fb.x >= ft.x ? below > 0 : below < 0; // below an edge that falls to the right is left of it
+    return fb.x >= ft.x ? below > 0 : below < 0;                  // below an edge that falls to the right is left of it
 }
 
 int Sweep::order_on_levels(std::uint32_t e, std::uint32_t f, Axis axis, double lo, double hi) {
@@ -233,7 +249,9 @@ Sweep::Gap Sweep::open_gap(std::uint32_t face, std::size_t position, std::uint32
     return {face, static_cast<std::uint32_t>(out_->trapezoids.size() - 1)};
 }
 
-void Sweep::close_gap(const Gap& gap, std::uint32_t bottom_node) { out_->trapezoids[gap.trapezoid].bottom_node = bottom_node; }
+void Sweep::close_gap(const Gap& gap, std::uint32_t bottom_node) {
+    out_->trapezoids[gap.trapezoid].bottom_node = bottom_node;
+}
 
 void Sweep::unite(std::uint32_t a, std::uint32_t b) {
     a = out_->face(a), b = out_->face(b);

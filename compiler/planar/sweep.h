@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Horizontal trapezoid decomposition of one texel (DESIGN §5.5, FBT §4.4), by a sweep from top to bottom over edges that meet in nodes
-/// only. Level edges count as slightly falling to the right, so no case is special.
+/// Horizontal trapezoid decomposition of one texel (DESIGN §5.5, FBT §4.4), by a sweep from top to bottom over edges
+/// that meet in nodes only. Level edges count as slightly falling to the right, so no case is special.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,36 @@ namespace fetexc {
 
 /// An edge of the texel for the sweep; top comes before bottom in sweep order.
 struct SweepEdge {
-    std::uint32_t sub = 0;              ///< index into PlanarMap::sub_edges(i,j)
-    std::uint32_t top = 0, bottom = 0;  ///< indices into the sweep's nodes
+    std::uint32_t sub = 0;             ///< index into PlanarMap::sub_edges(i,j)
+    std::uint32_t top = 0, bottom = 0; ///< indices into the sweep's nodes
 };
 
 /// The part of an edge inside one band. Faces are those of the band: after `unite`, equal ids are one face.
 struct Portion {
     std::uint32_t edge = 0, band = 0;
     std::uint32_t left = 0, right = 0;
-    bool from_cut = false; ///< enters through the band's top line (which is a cut, not the texel's side)
-    bool to_cut = false;   ///< leaves through its bottom line
+    bool from_cut = false;      ///< enters through the band's top line (which is a cut, not the texel's side)
+    bool to_cut = false;        ///< leaves through its bottom line
     std::uint32_t rank = kNone; ///< starts on the band's top line: position among those, from the left
 };
 
-/// 4-sided sub-region: bounded by two edges (or texel sides, kNone) and two horizontal lines through nodes. Their adjacency across
-/// those lines is the texel's part of the reachability graph.
+/// 4-sided sub-region: bounded by two edges (or texel sides, kNone) and two horizontal lines through nodes. Their
+/// adjacency across those lines is the texel's part of the reachability graph.
 struct Trapezoid {
-    std::uint32_t left = kNone, right = kNone; ///< sweep edges
+    std::uint32_t left = kNone, right = kNone;           ///< sweep edges
     std::uint32_t top_node = kNone, bottom_node = kNone; ///< kNone: texel border or cut
     std::uint32_t face = 0;
 };
 
 struct SweepResult {
-    std::vector<Portion> portions;        ///< in order of their top
+    std::vector<Portion> portions; ///< in order of their top
     std::vector<Trapezoid> trapezoids;
-    std::vector<std::uint32_t> faces;     ///< face parent links; use face()
-    std::uint32_t first_face = 0;         ///< leftmost in the first slab
+    std::vector<std::uint32_t> faces; ///< face parent links; use face()
+    std::uint32_t first_face = 0;     ///< leftmost in the first slab
 
     [[nodiscard]] std::uint32_t face(std::uint32_t f) const {
-        while (faces[f] != f) f = faces[f];
+        while (faces[f] != f)
+            f = faces[f];
         return f;
     }
 };
@@ -59,9 +60,9 @@ class Sweep {
   public:
     Sweep(const PlanarMap& map, PlanarStats& stats) : map_(map), stats_(stats) {}
 
-    /// nodes: ascending (before()). cuts: ascending, disjoint ranges of nodes on one level each; that level ends a band and starts the
-    /// next, edges along it belong to neither. False: the order of edges at a node contradicts the order found before, which exact
-    /// predicates rule out; the caller reports it.
+    /// nodes: ascending (before()). cuts: ascending, disjoint ranges of nodes on one level each; that level ends a band
+    /// and starts the next, edges along it belong to neither. False: the order of edges at a node contradicts the order
+    /// found before, which exact predicates rule out; the caller reports it.
     bool run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes, std::span<const SweepEdge> edges,
              std::span<const Cut> cuts, TexelFrame frame, SweepResult& out);
 
@@ -97,13 +98,13 @@ class Sweep {
     std::span<const SweepEdge> edges_;
     TexelFrame frame_;
     SweepResult* out_ = nullptr;
-    std::vector<std::uint32_t> status_;   ///< edges crossing the sweep line, left to right
-    std::vector<Gap> gaps_;               ///< status_.size() + 1
-    std::vector<std::uint32_t> portion_;  ///< current portion of each edge
+    std::vector<std::uint32_t> status_;                ///< edges crossing the sweep line, left to right
+    std::vector<Gap> gaps_;                            ///< status_.size() + 1
+    std::vector<std::uint32_t> portion_;               ///< current portion of each edge
     std::vector<std::uint32_t> first_out_, out_edges_; ///< outgoing edges per node (CSR)
     std::vector<std::uint32_t> in_count_;
     std::vector<std::uint32_t> outgoing_;
-    std::vector<bool> level_on_cut_;      ///< per edge: lies on a band line
+    std::vector<bool> level_on_cut_; ///< per edge: lies on a band line
     std::uint32_t band_ = 0;
     bool seen_first_slab_ = false;
 };

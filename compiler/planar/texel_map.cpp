@@ -19,8 +19,8 @@ ResultId ResultLookup::operator()(const Windings& w) {
     return last_;
 }
 
-void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& nodes,
-                          std::vector<SweepEdge>& edges) const {
+void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen,
+                          std::vector<std::uint32_t>& nodes, std::vector<SweepEdge>& edges) const {
     nodes.clear(), edges.clear();
     for (std::uint32_t s : chosen) {
         nodes.push_back(sub_edges[s].n0);
@@ -78,7 +78,8 @@ bool TexelMapper::assign_results(const Windings& corner, TexelMap& out) {
             const SubEdge& sub = out.sub_edges[out.edges[portion.edge].sub];
             const std::int32_t sign = direction * map_.sweep_sign(sub);
             windings[to] = windings[face];
-            for (const Contribution& c : map_.contributions_of(sub)) add_winding(windings[to], c.shape, sign * c.winding);
+            for (const Contribution& c : map_.contributions_of(sub))
+                add_winding(windings[to], c.shape, sign * c.winding);
             known[to] = true;
             queue.push_back(to);
         }

@@ -41,12 +41,13 @@ class TexelMapper {
     TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats)
         : map_(map), stats_(stats), sweep_(map, stats), lookup_(scene, compositor) {}
 
-    /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the caller).
+    /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the
+    /// caller).
     bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
 
     /// Nodes of a set of sub-edges in sweep order, and the edges between them.
-    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& nodes,
-                 std::vector<SweepEdge>& edges) const;
+    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen,
+                 std::vector<std::uint32_t>& nodes, std::vector<SweepEdge>& edges) const;
 
     Sweep& sweep() { return sweep_; }
     ResultLookup& lookup() { return lookup_; }

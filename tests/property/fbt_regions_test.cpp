@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Random scenes full of coincidences: the FBT's region of any point is the scene's, except within the quantisation of an edge.
+/// Random scenes full of coincidences: the FBT's region of any point is the scene's, except within the quantisation of
+/// an edge.
 #include <gtest/gtest.h>
 
 #include "formats/validate.h"
@@ -30,7 +31,9 @@ TEST(FbtRegions, OpaqueSolidsAtOddAndEvenSizes) {
 TEST(FbtRegions, GroupsClipsMasksAndGradients) {
     for (std::uint64_t seed = 1000; seed < 1080; ++seed) {
         const Scene scene = random_scene(seed, everything(3 + static_cast<int>(seed % 9)));
-        expect_right_regions(scene, {static_cast<std::uint32_t>(4 + seed * 5 % 29), static_cast<std::uint32_t>(1 + seed * 11 % 23)}, seed);
+        expect_right_regions(
+            scene, {static_cast<std::uint32_t>(4 + seed * 5 % 29), static_cast<std::uint32_t>(1 + seed * 11 % 23)},
+            seed);
     }
 }
 

@@ -14,24 +14,29 @@ namespace {
 
 bool colors_agree(const fetex::FbtColor& a, const Rgba& b) {
     constexpr double tolerance = 1.0 / 255 + 1e-9; // rounding to RGBA8 is half of it
-    return std::fabs(a.r - b.r) <= tolerance && std::fabs(a.g - b.g) <= tolerance && std::fabs(a.b - b.b) <= tolerance &&
-           std::fabs(a.a - b.a) <= tolerance;
+    return std::fabs(a.r - b.r) <= tolerance && std::fabs(a.g - b.g) <= tolerance &&
+           std::fabs(a.b - b.b) <= tolerance && std::fabs(a.a - b.a) <= tolerance;
 }
 
 } // namespace
 
-RegionCheck check_regions(const Scene& scene, const FbtBuild& build, const FbtRegions& regions, std::uint64_t points, std::uint64_t seed) {
+RegionCheck check_regions(const Scene& scene, const FbtBuild& build, const FbtRegions& regions, std::uint64_t points,
+                          std::uint64_t seed) {
     const GroundTruth truth(scene);
     const fetex::FbtTexture& t = build.texture;
-    const double sx = static_cast<double>(scene.extent.lattice_w) / t.width, sy = static_cast<double>(scene.extent.lattice_h) / t.height;
+    const double sx = static_cast<double>(scene.extent.lattice_w) / t.width,
+                 sy = static_cast<double>(scene.extent.lattice_h) / t.height;
     RegionCheck out;
     Random random(seed);
     for (; out.points < points; ++out.points) {
         const double x = random.between(0, t.width), y = random.between(0, t.height);
         const fetex::FbtRegion region = fetex::fbt_locate(t, x, y);
-        const ResultId got = regions.result_of(region, t.width), expected = truth.result_at(*regions.compositor, x * sx, y * sy);
+        const ResultId got = regions.result_of(region, t.width),
+                       expected = truth.result_at(*regions.compositor, x * sx, y * sy);
         if (got == expected) {
-            if (regions.compositor->is_solid(got) && !colors_agree(fetex::fbt_sample(t, x, y), regions.compositor->color(got, {}))) ++out.color_off;
+            if (regions.compositor->is_solid(got) &&
+                !colors_agree(fetex::fbt_sample(t, x, y), regions.compositor->color(got, {})))
+                ++out.color_off;
             continue;
         }
         ++out.wrong;
@@ -40,8 +45,8 @@ RegionCheck check_regions(const Scene& scene, const FbtBuild& build, const FbtRe
         if (distance >= out.worst_distance) {
             std::ostringstream where;
             where.precision(17);
-            where << "texel-space (" << x << ", " << y << ") result " << got << " instead of " << expected << ", " << distance
-                  << " texels from the nearest curve";
+            where << "texel-space (" << x << ", " << y << ") result " << got << " instead of " << expected << ", "
+                  << distance << " texels from the nearest curve";
             out.worst_distance = distance, out.worst = where.str();
         }
     }

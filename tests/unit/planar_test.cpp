@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The planar map: counts that geometry fixes, invariance under symmetries, and hard inputs against the ground truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "compiler/planar/arrangement.h"
+#include "tests/support/random_scene.h"
+#include "tests/support/region_check.h"
+
+namespace fetexc::test {
+namespace {
+
+using Path = std::vector<std::vector<LatticePoint>>; ///< control points of consecutive segments
+constexpr std::int64_t kSide = kLatticeSteps;
+
+/// One opaque fill per path, each in a colour of its own, on a square canvas. Coordinates in 1/512 of the canvas.
+Scene scene_of(const std::vector<Path>& paths, FillRule rule = FillRule::EvenOdd) {
+    Scene s;
+    s.extent = {512, 512, kSide, kSide};
+    for (const Path& path : paths) {
+        const auto k = static_cast<std::uint32_t>(s.shapes.size());
+        s.shapes.push_back(
+            {static_cast<std::uint32_t>(s.segments.size()), static_cast<std::uint32_t>(path.size()), rule, kNone});
+        for (const auto& points : path) {
+            Segment segment;
+            segment.degree = static_cast<int>(points.size()) - 1;
+            for (std::size_t i = 0; i < points.size(); ++i)
+                segment.p[i] = {points[i].x * (kSide / 512), points[i].y * (kSide / 512)};
+            s.segments.push_back(segment);
+        }
+        const double v = 0.1 + 0.8 * static_cast<double>(k % 9) / 9;
+        s.paints.emplace_back(SolidPaint{{v, 1 - v, 0.5, 1}});
+        Node node;
+        node.end = k + 1, node.shape = k, node.paint = k;
+        s.nodes.push_back(node);
+    }
+    s.root_end = static_cast<std::uint32_t>(s.nodes.size());
+    return s;
+}
+
+/// Closed with a line back to the start.
+Path closed(std::vector<std::vector<LatticePoint>> segments) {
+    const LatticePoint start = segments.front().front(), end = segments.back().back();
+    if (start != end) segments.push_back({end, start});
+    return segments;
+}
+
+Path rectangle(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
+    return {{{x0, y0}, {x1, y0}}, {{x1, y0}, {x1, y1}}, {{x1, y1}, {x0, y1}}, {{x0, y1}, {x0, y0}}};
+}
+
+PlanarStats arranged(const Scene& scene, std::uint32_t size = 8) {
+    PlanarStats stats;
+    const Result<Arrangement> a = arrange(scene, make_grid(scene.extent, size, size), 1, stats);
+    EXPECT_TRUE(a.ok());
+    return stats;
+}
+
+void expect_right(const Scene& scene, const std::string& name) {
+    for (const std::uint32_t size : {1u, 3u, 8u, 37u}) {
+        FbtRegions regions;
+        const Result<FbtBuild> build = build_fbt(scene, {{size, size}, 1}, {}, &regions);
+        ASSERT_TRUE(build.ok()) << name << " at " << size << ": " << build.error().message << " "
+                                << build.error().place;
+        const RegionCheck check = check_regions(scene, build.value(), regions, 3000, size);
+        EXPECT_EQ(check.wrong_far, 0u) << name << " at " << size << ": " << check.worst;
+    }
+}
+
+TEST(Arrangement, TwoRectanglesCrossFourTimes) {
+    const PlanarStats s = arranged(scene_of({rectangle(100, 200, 400, 300), rectangle(200, 100, 300, 400)}));
+    EXPECT_EQ(s.crossings, 4u);
+    EXPECT_EQ(s.edges, 8u + 2 * 4);
+    EXPECT_EQ(s.pairs_exact, 0u);
+}
+
+TEST(Arrangement, SharedBordersBecomeOneEdge) {
+    // Neighbours whose common border is cut differently: 200…300 is drawn twice, once in two parts.
+    const Path left = rectangle(100, 200, 200, 300);
+    const Path right = {{{200, 200}, {300, 200}},
+                        {{300, 200}, {300, 300}},
+                        {{300, 300}, {200, 300}},
+                        {{200, 300}, {200, 250}},
+                        {{200, 250}, {200, 200}}};
+    const PlanarStats s = arranged(scene_of({left, right}));
+    EXPECT_EQ(s.edges, 3u + 3 + 2);
+    EXPECT_EQ(s.crossings, 0u);
+}
+
+TEST(Arrangement, WhatRunsBackAndForthVanishes) {
+    const Path spike = {{{100, 100}, {400, 100}}, {{400, 100}, {100, 100}}};
+    EXPECT_EQ(arranged(scene_of({spike})).edges, 0u);
+}
+
+TEST(Arrangement, PartialOverlapOfCurvesIsOneStretch) {
+    // The second curve is the first one's half, cut at t = 1/2, with exact integer control points.
+    const Path whole = closed({{{64, 64}, {128, 320}, {256, 320}, {320, 64}}});
+    const Path half = closed({{{64, 64}, {96, 192}, {144, 256}, {192, 256}}});
+    const PlanarStats s = arranged(scene_of({whole, half}));
+    EXPECT_EQ(s.overlaps, 1u);
+    expect_right(scene_of({whole, half}), "partial overlap");
+}
+
+TEST(Arrangement, CountsDoNotDependOnPlacement) {
+    using Map = std::function<LatticePoint(LatticePoint)>;
+    const std::vector<std::pair<const char*, Map>> maps = {
+        {"mirrored",
+         [](LatticePoint p) {
+             return LatticePoint{kSide - p.x, p.y};
+         }},
+        {"transposed",
+         [](LatticePoint p) {
+             return LatticePoint{p.y, p.x};
+         }},
+        {"turned",
+         [](LatticePoint p) {
+             return LatticePoint{p.y, kSide - p.x};
+         }},
+    };
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        const Scene scene = random_scene(seed, opaque_solids(8));
+        if (scene.extent.lattice_w != scene.extent.lattice_h) continue;
+        const PlanarStats expected = arranged(scene);
+        for (const auto& [name, map] : maps) {
+            Scene moved = scene;
+            for (Segment& s : moved.segments) {
+                for (int i = 0; i <= s.degree; ++i)
+                    s.p[i] = map(s.p[i]);
+            }
+            // Outside the canvas pieces may be left out, differently for each placement: compare what has to be seen.
+            const PlanarStats got = arranged(moved);
+            if (got.pieces == expected.pieces) {
+                EXPECT_EQ(got.crossings, expected.crossings) << name << " seed " << seed;
+            }
+            expect_right(moved, std::string(name) + " seed " + std::to_string(seed));
+        }
+    }
+}
+
+TEST(PlanarMap, HardCasesAgreeWithTheGroundTruth) {
+    const std::vector<std::pair<const char*, std::vector<Path>>> cases = {
+        {"two lines, T on a grid line",
+         {closed({{{448, 320}, {0, 384}}, {{0, 384}, {128, 192}}, {{128, 192}, {0, 448}}})}},
+        {"line and quadratic",
+         {closed({{{0, 256}, {384, 448}}, {{384, 448}, {384, 128}}, {{384, 128}, {256, 128}, {0, 320}}})}},
+        {"cubic and quadratic",
+         {closed({{{384, 128}, {448, 320}, {384, 448}, {448, 256}},
+                  {{448, 256}, {320, 0}},
+                  {{320, 0}, {256, 256}, {64, 320}}})}},
+        {"zero handle", {closed({{{128, 256}, {128, 256}, {448, 192}, {64, 64}}})}},
+        {"cusp", {closed({{{64, 64}, {448, 448}, {64, 448}, {448, 64}}})}},
+        {"loop", {closed({{{64, 64}, {640, 448}, {-128, 448}, {448, 64}}})}},
+        {"quadratic there and back",
+         {closed({{{0, 64}, {192, 0}, {0, 0}}, {{0, 0}, {192, 0}, {0, 64}}, {{0, 64}, {300, 300}}})}},
+        {"tangent circles and their common tangent",
+         {closed({{{256, 100}, {338, 100}, {338, 182}, {256, 182}}, {{256, 182}, {174, 182}, {174, 100}, {256, 100}}}),
+          closed({{{256, 182}, {338, 182}, {338, 264}, {256, 264}}, {{256, 264}, {174, 264}, {174, 182}, {256, 182}}}),
+          rectangle(0, 182, 512, 400)}},
+        {"along grid lines and corners",
+         {rectangle(0, 0, 512, 512), rectangle(64, 64, 128, 128), rectangle(128, 128, 192, 192),
+          rectangle(128, 64, 192, 128)}},
+        {"diagonals through grid corners",
+         {closed({{{0, 0}, {512, 512}}, {{512, 512}, {0, 512}}}), closed({{{512, 0}, {0, 512}}, {{0, 512}, {0, 0}}})}},
+        {"beyond the canvas on all sides", {rectangle(-400, -400, 900, 256), rectangle(-400, 128, 256, 900)}},
+    };
+    for (const auto& [name, paths] : cases) {
+        expect_right(scene_of(paths, FillRule::EvenOdd), name);
+        expect_right(scene_of(paths, FillRule::NonZero), name);
+    }
+}
+
+TEST(PlanarMap, ManyLinesThroughOnePoint) {
+    std::vector<Path> rays;
+    for (int k = 0; k < 60; ++k) {
+        const double a = k * 0.1047, b = a + 0.05;
+        const auto at = [](double angle) {
+            return LatticePoint{256 + std::llround(200 * std::cos(angle)), 256 + std::llround(200 * std::sin(angle))};
+        };
+        rays.push_back(closed({{{256, 256}, at(a)}, {at(a), at(b)}}));
+        rays.push_back(closed({{at(a + 3.1), at(a)}, {at(a), at(b)}}));
+    }
+    expect_right(scene_of(rays), "star");
+}
+
+TEST(Fbt, BytesDoNotDependOnThreads) {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const Scene scene = random_scene(seed, everything(10));
+        const Result<FbtBuild> one = build_fbt(scene, {{50, 0}, 1}, {}, nullptr),
+                               two = build_fbt(scene, {{50, 0}, 2}, {}, nullptr);
+        ASSERT_TRUE(one.ok() && two.ok());
+        EXPECT_EQ(one.value().texture.texels, two.value().texture.texels) << seed;
+        EXPECT_EQ(one.value().texture.records, two.value().texture.records) << seed;
+    }
+}
+
+TEST(Fbt, SizeIsChecked) {
+    const Scene scene = scene_of({rectangle(100, 100, 200, 200)});
+    for (const GridSize size : {GridSize{0, 0}, GridSize{16385, 1}, GridSize{1, 16385}}) {
+        const Result<FbtBuild> build = build_fbt(scene, {size, 1}, {}, nullptr);
+        ASSERT_FALSE(build.ok());
+        EXPECT_EQ(build.error().code, 5001);
+    }
+}
+
+TEST(Fbt, EmptySceneIsTransparent) {
+    const Result<FbtBuild> build = build_fbt(scene_of({}), {{4, 4}, 1}, {}, nullptr);
+    ASSERT_TRUE(build.ok());
+    EXPECT_EQ(build.value().texture.records.size(), 0u);
+    EXPECT_EQ(fetex::fbt_sample(build.value().texture, 2.5, 2.5).a, 0);
+}
+
+} // namespace
+} // namespace fetexc::test
