@@ -212,7 +212,7 @@ TEST(Validator, whatItTakesCanBeSampled) {
 }
 
 /// Every texel at another offset of one long list, and every run with as many pieces as fit: the walk must not start
-/// over for each (it would take 10^12 steps).
+/// over for each (it would take some 10^10 steps).
 TEST(Validator, takesTimeInProportionToTheBytes) {
     FbtTexture t;
     t.width = 512;
