@@ -25,6 +25,10 @@ inline constexpr double kFilterMinWidth = 0x1p-36;
 /// Box pairs the filter looks at before it hands the pair to exact arithmetic; generic pairs need 1…60.
 inline constexpr int kFilterMaxBoxes = 1500;
 
+/// Part of a parameter range: the first guess for the half width of a root's enclosure is never larger (the square root of a double's
+/// resolution, with some room: what a double root needs); the enclosure is widened from there until it is certified.
+inline constexpr double kFirstWidening = 0x1p-30;
+
 /// Bits of a certified refinement in exact arithmetic: first try, and the limit at which two curves that never separate are
 /// reported as an inconsistency instead of looping (2^-4096 of a parameter is beyond any root separation seen).
 inline constexpr int kRefineBits = 96;

@@ -160,7 +160,10 @@ Interval parameter_at(const Curve& c, Axis axis, const Interval& range, bool inc
     const double t = newton_root(c, axis, range.lo, range.hi, sign, target);
     const double slope = std::fabs(derivative_double(c, axis, t)),
                  noise = 2 * budget::kEvaluationError * (k.magnitude + std::fabs(target));
-    double delta = std::max(2 * budget::kUnitRoundoff * std::fabs(t), slope > 0 ? noise / slope : 0.0);
+    // Where the slope vanishes the noise of a simple root says nothing: start small, the loop below finds how far to
+    // go.
+    const double widest = range.width() * budget::kFirstWidening;
+    double delta = std::max(2 * budget::kUnitRoundoff * std::fabs(t), slope * widest > noise ? noise / slope : widest);
     delta = std::max(delta, budget::kUnderflowGuard);
     const auto bound = [&](double side) {
         for (double d = delta;; d *= 4) {

@@ -171,6 +171,24 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
     return ExactOutcome::Done;
 }
 
+std::optional<ExactHit> double_point(const Curve& c) {
+    // (C(s) − C(t))/(s − t) = 0: C3(σ² − π) + C2·σ + C1 = 0 with σ = s + t, π = s·t; crossed with C3 it is linear in σ.
+    const Vectors v(c);
+    const mpz_class c23 = v.cross(2, 3), c13 = v.cross(1, 3);
+    if (v.degree < 3 || c23 == 0) return {};
+    mpq_class sum(-c13, c23);
+    sum.canonicalize();
+    const bool use_x = v.x[3] != 0;
+    const mpq_class c1(use_x ? v.x[1] : v.y[1]), c2(use_x ? v.x[2] : v.y[2]), c3(use_x ? v.x[3] : v.y[3]);
+    const mpq_class product = sum * sum + (c2 * sum + c1) / c3;
+    if (sum * sum - 4 * product <= 0) return {};
+    const mpz_class scale = sum.get_den() * product.get_den();
+    const mpq_class linear = -sum * scale, constant = product * scale;
+    const auto roots = isolate_roots({constant.get_num(), linear.get_num(), scale}, 0, 1, 2 * budget::kRefineBits);
+    if (roots.size() != 2) return {};
+    return ExactHit{to_double({roots[0].first, roots[0].second}), to_double({roots[1].first, roots[1].second})};
+}
+
 int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y) { return compare_at(a, b, Axis::Y, y); }
 int compare_y_at_x_exact(const Stretch& a, const Stretch& b, double x) { return compare_at(a, b, Axis::X, x); }
 

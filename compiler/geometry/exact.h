@@ -3,6 +3,7 @@
 /// Integers and rationals are GMP's, root isolation is CGAL's Algebraic_kernel_d_1. CGAL stays behind this header.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compiler/geometry/curve.h"
@@ -37,6 +38,10 @@ enum class ExactOutcome { Done, CommonComponent };
 
 /// All common points of two monotone stretches whose algebraic curves differ; parameters enclosed to kRefineBits.
 ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits);
+
+/// The parameters s < t in (0,1) with C(s) = C(t), if the cubic crosses itself there (sum and product of s and t are
+/// rational; a cusp or an isolated point gives none).
+std::optional<ExactHit> double_point(const Curve& c);
 
 /// Sign of x_a(y) − x_b(y), by bisection in rationals until the two separate; 0 when they don't up to kRefineBitsLimit.
 int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y);

@@ -58,8 +58,8 @@ class PairTest {
         if (intersect_certified(sa, sb, known_, found_) == PairOutcome::Certified) {
             ++out_.certified;
         } else if (a.curve == b.curve) {
-            ++out_.certified; // a cubic has one double point at most: the cusp (or loop below resolution) where the two
-                              // arcs meet
+            ++out_.exact;
+            cross_itself(a, b);
         } else {
             ++out_.exact;
             decide_exactly(a, b, sa, sb);
@@ -114,10 +114,23 @@ class PairTest {
         intersect_exact(sa, sb, hits);
         for (const ExactHit& h : hits) {
             const Contact c{h.s, h.t};
-            const bool seen = std::any_of(known_.begin(), known_.end(),
-                                          [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
-            if (!seen) found_.push_back(c);
+            if (!is_known(c)) found_.push_back(c);
         }
+    }
+
+    /// Two stretches of one cubic: its double point is the only one they can share, beside an end.
+    void cross_itself(const Arc& a, const Arc& b) {
+        const std::optional<ExactHit> p = double_point(set_.curves[a.curve]);
+        if (!p) return;
+        const bool a_first = a.t0.mid() < b.t0.mid();
+        const Contact c = a_first ? Contact{p->s, p->t} : Contact{p->t, p->s};
+        const bool inside = c.s.overlaps({a.t0.lo, a.t1.hi}) && c.t.overlaps({b.t0.lo, b.t1.hi});
+        if (inside && !is_known(c)) found_.push_back(c);
+    }
+
+    [[nodiscard]] bool is_known(const Contact& c) const {
+        return std::any_of(known_.begin(), known_.end(),
+                           [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
     }
 
     void add(std::uint32_t ia, std::uint32_t ib, const Contact& c) {

@@ -40,7 +40,7 @@ RegionCheck check_regions(const Scene& scene, const FbtBuild& build, const FbtRe
             continue;
         }
         ++out.wrong;
-        const double distance = truth.distance_to_curves(x * sx, y * sy) / std::min(sx, sy);
+        const double distance = truth.distance_to_curves(x * sx, y * sy) / std::max(sx, sy);
         if (distance > budget::kRegionTolerance) ++out.wrong_far;
         if (distance >= out.worst_distance) {
             std::ostringstream where;
