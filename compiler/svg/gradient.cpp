@@ -39,10 +39,14 @@ std::vector<GradientStop> normalised_stops(std::vector<GradientStop> stops) {
     double last = 0;
     for (GradientStop& stop : stops) {
         const double offset = std::isfinite(stop.offset) ? std::clamp(stop.offset, 0.0, 1.0) : last;
-        stop.offset = offset - last <= budget::kHardEdgeGap ? last : offset;
-        if (1 - stop.offset <= budget::kHardEdgeGap) stop.offset = 1;
-        last = stop.offset;
+        stop.offset = last = std::max(offset, last);
     }
+    // The parser moves the earlier of two equal offsets back, except at 0, where it moves the later one on.
+    for (std::size_t i = stops.size() - 1; i-- > 0;)
+        if (stops[i + 1].offset - stops[i].offset <= budget::kHardEdgeGap)
+            stops[i].offset = stops[i + 1].offset <= budget::kHardEdgeGap ? stops[i].offset : stops[i + 1].offset;
+    for (std::size_t i = 1; i < stops.size(); ++i)
+        if (stops[i].offset - stops[i - 1].offset <= budget::kHardEdgeGap) stops[i].offset = stops[i - 1].offset;
     drop_hidden_stops(stops);
     return stops;
 }

@@ -42,12 +42,12 @@ fn has_words(node: &Node) -> bool {
     node.descendants().any(|n| n.text().is_some_and(|t| !t.trim().is_empty()))
 }
 
-fn inspect(node: &Node, lines: &Lines, has_fonts: bool, report: &mut Report) {
+fn inspect(node: &Node, lines: &Lines, report: &mut Report) {
     let tag = node.tag_name().name();
     if let Some((finding, message)) = by_tag(tag) {
         report.add(finding, message, lines.name(node));
     }
-    if tag == "text" && !has_fonts && has_words(node) {
+    if tag == "text" && report.without_fonts && has_words(node) {
         report.add(Finding::TextWithoutFonts, "text is not drawn: no fonts were given", lines.name(node));
     }
     if tag == "style" {
@@ -70,10 +70,10 @@ fn inspect(node: &Node, lines: &Lines, has_fonts: bool, report: &mut Report) {
     }
 }
 
-pub fn report_dropped(doc: &Document, lines: &Lines, has_fonts: bool, report: &mut Report) {
+pub fn report_dropped(doc: &Document, lines: &Lines, report: &mut Report) {
     for node in doc.descendants().filter(Node::is_element) {
         if matches!(node.tag_name().namespace(), None | Some(SVG_NAMESPACE)) {
-            inspect(&node, lines, has_fonts, report);
+            inspect(&node, lines, report);
         }
     }
 }

@@ -16,6 +16,9 @@ pub struct Arc {
     pub end: Point,
 }
 
+/// 2^-36: relative accuracy that is enough however large an arc is.
+const FINEST: f64 = 1.0 / (1u64 << 36) as f64;
+
 /// One piece of a path.
 #[derive(Clone, Copy, Debug)]
 pub enum Seg {
@@ -90,8 +93,10 @@ impl Arc {
     }
     /// Cubics that stay within `tolerance` of the arc. Their number follows from the classic bound of the
     /// 4/3·tan(θ/4) construction, max radial error = (2/27)·sin⁶(θ/4)/cos²(θ/4) per unit radius.
+    /// Beyond the canvas an arc gets no more than 36 bits relative to its own size.
     pub fn to_cubics(&self, tolerance: f64) -> Vec<CubicBez> {
-        let n = cubic_count(largest_stretch(self.u, self.v), self.sweep, tolerance);
+        let radius = largest_stretch(self.u, self.v);
+        let n = cubic_count(radius, self.sweep, tolerance.max(radius * FINEST));
         let step = self.sweep / n as f64;
         let arm = 4.0 / 3.0 * (0.25 * step).tan();
         let mut out = Vec::with_capacity(n);

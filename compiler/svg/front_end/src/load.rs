@@ -210,8 +210,8 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     check_references(&doc, settings)?;
     let fontdb = fonts(settings)?;
     let lines = Lines::new(&text);
-    let mut report = Report::default();
-    report_dropped(&doc, &lines, !fontdb.is_empty(), &mut report);
+    let mut report = Report::new(fontdb.is_empty());
+    report_dropped(&doc, &lines, &mut report);
     let mut recovery = Recovery::new(&doc, &lines, settings.dpi, settings.max_segments)?;
     let (tree, svgs) = convert(&doc, settings, fontdb)?;
     budget.check_time()?;

@@ -9,6 +9,7 @@ use crate::budget::Failure;
 use crate::document::{stop, to_abi};
 use crate::emit::{Emitter, EMPTY_GROUP};
 use crate::geom::{map_is_finite, rect_contour, Contour};
+use crate::report::Finding;
 
 /// A pattern is drawn tile by tile, as vectors, up to this many tiles and segments; beyond, it becomes a raster layer.
 const MOST_TILES: f64 = 1024.0;
@@ -48,6 +49,10 @@ impl Emitter<'_> {
                 (g, abi::RADIAL, [g.cx() as f64, g.cy() as f64, r, g.fx() as f64, g.fy() as f64, fr])
             }
         };
+        if !v.iter().all(|x| x.is_finite()) {
+            self.report.add(Finding::BadGeometry, "a gradient overflows; nothing is painted with it", base.id());
+            return None;
+        }
         let to_paint = to_abi(&inverse(&(*to_root * self.recovery.transform(base.transform())))?);
         let stops: Vec<abi::Stop> = base
             .stops()

@@ -42,11 +42,16 @@ pub struct Entry {
 pub struct Report {
     entries: Vec<Entry>,
     seen: HashMap<u32, usize>,
+    /// Without fonts every text is reported by name; that a font is missing says no more.
+    pub without_fonts: bool,
 }
 
 const IN_FULL: usize = 20;
 
 impl Report {
+    pub fn new(without_fonts: bool) -> Self {
+        Report { without_fonts, ..Report::default() }
+    }
     pub fn add(&mut self, finding: Finding, message: impl Into<String>, place: impl Into<String>) {
         let code = finding as u32;
         let count = self.seen.entry(code).or_insert(0);
@@ -67,6 +72,9 @@ impl Report {
     pub fn take_log(&mut self) {
         for message in LOGGED.with(|l| std::mem::take(&mut *l.borrow_mut())) {
             let font = message.contains("font") || message.contains("glyph");
+            if font && self.without_fonts {
+                continue;
+            }
             let finding = if font { Finding::FontNotFound } else { Finding::ParserMessage };
             self.add(finding, crate::names::shorten(&message), "");
         }

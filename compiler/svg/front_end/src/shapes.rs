@@ -5,7 +5,7 @@ use kurbo::Point;
 use usvg::roxmltree::Node;
 use usvg::tiny_skia_path::Rect;
 
-use crate::twin::{path_data, Twin};
+use crate::twin::{path_data, usvg_cubics, Twin};
 
 /// A length in user units: usvg's f32 arithmetic and the exact one. None where it depends on context (%, em, ex).
 fn length(node: &Node, name: &str, dpi: f64) -> Option<Option<(f32, f64)>> {
@@ -134,11 +134,19 @@ fn poly(node: &Node, closed: bool, budget: &mut usize) -> Option<Twin> {
     Some(twin)
 }
 
+/// Cubics of the arcs of a circle, ellipse or rounded rectangle.
+fn charge_arcs(node: &Node, dpi: f64, budget: &mut usize) -> Option<()> {
+    let radius = ["r", "rx", "ry"].into_iter().filter_map(|a| length(node, a, dpi).flatten()).map(|v| v.1.abs());
+    let count = usvg_cubics(radius.fold(0.0, f64::max));
+    *budget = budget.saturating_sub(count as usize + 4);
+    (*budget > 0).then_some(())
+}
+
 /// Both versions of a shape element; None for other elements, invalid shapes, lengths that depend on context, or when
 /// the budget of segments runs out (then it is 0).
 pub fn shape(node: &Node, dpi: f64, budget: &mut usize) -> Option<Twin> {
     let get = |name| length_or_zero(node, name, dpi);
-    let twin = match node.tag_name().name() {
+    Some(match node.tag_name().name() {
         "path" => {
             let twin = path_data(node.attribute("d")?, budget);
             if twin.is_none() {
@@ -149,11 +157,10 @@ pub fn shape(node: &Node, dpi: f64, budget: &mut usize) -> Option<Twin> {
         "polyline" => poly(node, false, budget)?,
         "polygon" => poly(node, true, budget)?,
         "line" => line(node, dpi)?,
+        "circle" | "ellipse" | "rect" if charge_arcs(node, dpi, budget).is_none() => return None,
         "circle" => ellipse([get("cx")?, get("cy")?], [get("r")?; 2])?,
         "ellipse" => ellipse([get("cx")?, get("cy")?], radii(node, dpi)??)?,
         "rect" => rect(node, dpi)?,
         _ => return None,
-    };
-    *budget = budget.saturating_sub(4);
-    Some(twin)
+    })
 }

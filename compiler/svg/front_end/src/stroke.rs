@@ -84,13 +84,27 @@ impl Side {
         self.line_to(from);
         self.line_to(b);
     }
-    /// Moves the end of the last line back to `p`, where the next line will start.
-    pub fn trim_at(&mut self, p: Point) {
+    /// The last line ends at `p` instead (before or beyond its own end).
+    fn end_at(&mut self, p: Point) {
         if let Some(last) = self.segs.last_mut() {
             *last = Bezier::line(last.p[0], p);
         }
         self.cur = p;
+    }
+    /// The last line ends and the next one starts at `p`.
+    fn trim_at(&mut self, p: Point) {
+        self.end_at(p);
         self.trim = Some(p);
+    }
+    /// A miter: lines run on to its tip.
+    fn corner(&mut self, tip: Point, after_line: bool, before_line: bool) {
+        match after_line {
+            true => self.end_at(tip),
+            false => self.line_to(tip),
+        }
+        if before_line {
+            self.trim = Some(tip);
+        }
     }
     /// The same for the join that closes a run: the first line starts where the last one ends.
     fn trim_first(&mut self, p: Point) {
@@ -345,11 +359,13 @@ impl<'a> Stroker<'a> {
         let (outer, inner) = if cross >= 0.0 { (0, 1) } else { (1, 0) };
         let sign = if outer == 0 { -1.0 } else { 1.0 };
         let (o1, o2) = (turn_90(t1) * sign, turn_90(t2) * sign);
-        self.outer_join(p, (t1, t2), (o1, o2), &mut sides.side[outer]);
+        let long = |piece: &Piece| matches!(piece, Piece::Line(a, b) if a.distance(*b) >= self.tolerance);
+        self.outer_join(p, (t1, t2), (o1, o2), (long(before), long(after)), &mut sides.side[outer]);
         self.inner_join(p, before, after, o2, &mut sides.side[inner]);
     }
 
-    fn outer_join(&self, p: Point, t: (Vec2, Vec2), o: (Vec2, Vec2), side: &mut Side) {
+    /// `t`, `o`: tangents and outward normals before and after the vertex; `line`: whether the pieces are lines.
+    fn outer_join(&self, p: Point, t: (Vec2, Vec2), o: (Vec2, Vec2), line: (bool, bool), side: &mut Side) {
         let (h, dot) = (self.half, o.0.dot(o.1));
         let limit = self.style.miter_limit;
         match self.style.join {
@@ -359,7 +375,10 @@ impl<'a> Stroker<'a> {
                 side.arc(&arc, self.tolerance);
             }
             Join::Miter | Join::MiterClip if limit * limit * (1.0 + dot) >= 2.0 => {
-                side.line_to(p + (o.0 + o.1) * (h / (1.0 + dot)));
+                side.corner(p + (o.0 + o.1) * (h / (1.0 + dot)), line.0, line.1);
+                if line.1 {
+                    return;
+                }
             }
             Join::MiterClip => {
                 let bisector = o.0 + o.1;

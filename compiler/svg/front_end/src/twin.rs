@@ -14,6 +14,9 @@ use crate::geom::{Arc, Path, Seg, Subpath};
 /// usvg flattens arcs with this tolerance (user units); the fingerprint has to do the same.
 const USVG_ARC_TOLERANCE: f64 = 0.1;
 
+/// Counting the cubics of an arc stops here; no budget allows as many.
+const MOST_CUBICS: usize = 1 << 24;
+
 #[derive(Default)]
 pub struct ExactBuilder {
     path: Path,
@@ -179,6 +182,17 @@ impl Twin {
     }
 }
 
+/// Number of cubics usvg (kurbo) cuts a full turn of this radius into.
+pub fn usvg_cubics(radius: f64) -> f64 {
+    (1.1163 * radius / USVG_ARC_TOLERANCE).powf(1.0 / 6.0)
+}
+
+/// svgtypes hands out the cubics of an arc from the front of a vector: quadratic in their number, which only absurd radii
+/// (beyond 1e18) make large. Charged as such, before usvg does it.
+fn arc_cost(count: usize) -> usize {
+    count.saturating_add(count.saturating_mul(count) / 256)
+}
+
 /// How many simplified segments a raw one becomes, and the arc if it is one.
 fn expansion(raw: &PathSegment, cur: Point, after_close: bool) -> (usize, Option<(kurbo::Arc, Point)>) {
     let implied_move = after_close && !matches!(raw, PathSegment::MoveTo { .. } | PathSegment::ClosePath { .. });
@@ -189,8 +203,7 @@ fn expansion(raw: &PathSegment, cur: Point, after_close: bool) -> (usize, Option
     let to = if abs { Point::new(x, y) } else { Point::new(x + cur.x, y + cur.y) };
     match svg_arc(cur, to, (rx, ry), x_axis_rotation, large_arc, sweep) {
         Some(arc) => {
-            let mut n = 0;
-            arc.to_cubic_beziers(USVG_ARC_TOLERANCE, |_, _, _| n += 1);
+            let n = arc.append_iter(USVG_ARC_TOLERANCE).take(MOST_CUBICS).count();
             (n + extra, Some((arc, to)))
         }
         None => (1 + extra, None),
@@ -210,7 +223,7 @@ pub fn path_data(d: &str, budget: &mut usize) -> Option<Twin> {
             continue; // svgtypes drops repeated closes
         }
         let (count, arc) = expansion(&raw, cur, after_close);
-        *budget = budget.checked_sub(count)?;
+        *budget = budget.checked_sub(arc_cost(count))?;
         for _ in 0..count {
             let Some(Ok(segment)) = simple.next() else { return Some(twin) };
             let flattened = arc.is_some() && matches!(segment, SimplePathSegment::CurveTo { .. });
