@@ -18,7 +18,7 @@ TIME_LIMIT = 300  # seconds for one drawing
 
 def compile_digest(fetexc, drawing, size, jobs, folder):
     output = pathlib.Path(folder) / "out.fetex"
-    args = [fetexc, "compile", drawing, "-o", output, "--size", str(size), "-j", str(jobs)]
+    args = [fetexc, "compile", drawing, "-o", output, "--size", str(size), "-j", str(jobs), "-q"]
     subprocess.run(args, check=True, timeout=TIME_LIMIT, stdout=subprocess.DEVNULL)
     return hashlib.sha256(output.read_bytes()).hexdigest()
 
