@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 
@@ -219,6 +221,56 @@ TEST(SvgInput, compressedInputIsTheSame) {
     EXPECT_EQ(scene.value().extent.width, 8);
     EXPECT_EQ(scene.value().segments.size(), 4u);
     EXPECT_EQ(error_of(bytes.substr(0, bytes.size() / 2)), diag::kSvgBadGzip);
+}
+
+/// Some font of the machine, or nothing.
+std::string any_font() {
+    const std::filesystem::path folder = "/usr/share/fonts";
+    if (!std::filesystem::exists(folder)) return {};
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename() == "DejaVuSans.ttf") return entry.path().string();
+    return {};
+}
+
+TEST(SvgInput, textBecomesOutlines) {
+    const std::string font = any_font();
+    if (font.empty()) GTEST_SKIP() << "DejaVuSans.ttf is not on this machine";
+    SvgOptions options;
+    options.font_files.push_back(font);
+    Diagnostics d;
+    const Result<Scene> scene =
+        load("<text id='title' x='10' y='90' font-size='100' font-family='DejaVu Sans'>I</text>", d, options);
+    ASSERT_TRUE(scene.ok());
+    EXPECT_TRUE(d.empty());
+    ASSERT_EQ(scene.value().shapes.size(), 1u);
+    EXPECT_EQ(scene.value().elements[scene.value().nodes[0].element].name, "text#title");
+    const double unit = static_cast<double>(scene.value().extent.lattice_w) / 100;
+    const GroundTruth truth(scene.value());
+    EXPECT_EQ(truth.color_at(25 * unit, 60 * unit).a, 1) << "the stem of the letter";
+    EXPECT_EQ(truth.color_at(45 * unit, 60 * unit).a, 0);
+}
+
+TEST(SvgInput, resourcesOnlyFromTheirFolder) {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "fetexc_svg_resources";
+    std::filesystem::create_directories(folder / "inside");
+    const auto write = [](const std::filesystem::path& path) {
+        std::ofstream(path)
+            << "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><rect width='9' height='9'/></svg>";
+    };
+    write(folder / "inside" / "a.svg");
+    write(folder / "outside.svg");
+    SvgOptions options;
+    options.resources_dir = folder / "inside";
+    const auto shapes = [&](const std::string& href) {
+        Diagnostics d;
+        const Result<Scene> scene = load("<image width='90' height='90' href='" + href + "'/>", d, options);
+        EXPECT_EQ(d.empty(), scene.ok() && !scene.value().shapes.empty());
+        return scene.ok() ? scene.value().nodes.size() : 99;
+    };
+    EXPECT_GT(shapes("a.svg"), 0u);
+    EXPECT_EQ(shapes("../outside.svg"), 0u);
+    EXPECT_EQ(shapes((folder / "outside.svg").string()), 0u);
+    std::filesystem::remove_all(folder);
 }
 
 // ---- findings ----

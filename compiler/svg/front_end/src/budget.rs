@@ -57,10 +57,7 @@ impl Budget {
                 self.segments_left = left;
                 Ok(())
             }
-            None => Err(Failure::new(
-                Code::TooManySegments,
-                format!("more than {} path segments", self.segments_max),
-            )),
+            None => Err(Failure::new(Code::TooManySegments, format!("more than {} path segments", self.segments_max))),
         }
     }
     pub fn check_time(&self) -> Result<(), Failure> {

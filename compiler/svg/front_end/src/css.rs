@@ -60,9 +60,9 @@ pub fn for_each_property<'a>(node: Node<'a, '_>, sheet: &StyleSheet<'a>, mut f: 
 
 /// One property of the style attribute or the attribute of that name, without the cascade.
 pub fn own_property<'a>(node: &Node<'a, '_>, name: &str) -> Option<&'a str> {
-    let styled = node.attribute("style").and_then(|style| {
-        DeclarationTokenizer::from(style).filter(|d| d.name == name).map(|d| d.value).last()
-    });
+    let styled = node
+        .attribute("style")
+        .and_then(|style| DeclarationTokenizer::from(style).filter(|d| d.name == name).map(|d| d.value).last());
     styled.or_else(|| node.attribute(name))
 }
 

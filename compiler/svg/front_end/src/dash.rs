@@ -8,9 +8,15 @@ use crate::piece::Piece;
 
 /// A connected part of a stroke.
 pub enum Run {
-    Pieces { pieces: Vec<Piece>, closed: bool },
+    Pieces {
+        pieces: Vec<Piece>,
+        closed: bool,
+    },
     /// A dash (or subpath) of length zero: caps only.
-    Dot { at: Point, tangent: Vec2 },
+    Dot {
+        at: Point,
+        tangent: Vec2,
+    },
 }
 
 /// More dashes than this in one subpath are not drawn one by one.

@@ -79,8 +79,15 @@ impl Drawing {
         let offset = self.bytes.len() as u64;
         self.bytes.extend_from_slice(rgba);
         let to_paint = to_abi(to_pixel);
-        let paint =
-            abi::Paint { kind: abi::RASTER, width, height, offset, to_paint, smooth: smooth as u32, ..abi::Paint::default() };
+        let paint = abi::Paint {
+            kind: abi::RASTER,
+            width,
+            height,
+            offset,
+            to_paint,
+            smooth: smooth as u32,
+            ..abi::Paint::default()
+        };
         self.paint(paint, &[])
     }
 

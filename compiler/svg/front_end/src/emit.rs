@@ -154,7 +154,11 @@ impl<'a> Emitter<'a> {
             opacity: g.opacity().get() as f64,
             ..EMPTY_GROUP
         };
-        let plain = clip == abi::NONE && mask == abi::NONE && header.blend == 0 && header.isolated == 0 && header.opacity == 1.0;
+        let plain = clip == abi::NONE
+            && mask == abi::NONE
+            && header.blend == 0
+            && header.isolated == 0
+            && header.opacity == 1.0;
         let outer = self.hint.clone();
         if matches!(g.children(), [Node::Image(_)]) && !g.id().is_empty() {
             // usvg moves the id of an image to the group around it.

@@ -65,7 +65,11 @@ fn inspect(node: &Node, lines: &Lines, report: &mut Report) {
     }
     if let Some(effect) = own_property(node, "vector-effect").map(str::trim) {
         if !matches!(effect, "none" | "non-scaling-stroke") {
-            report.add(Finding::VectorEffect, format!("vector-effect {} is ignored", shorten(effect)), lines.name(node));
+            report.add(
+                Finding::VectorEffect,
+                format!("vector-effect {} is ignored", shorten(effect)),
+                lines.name(node),
+            );
         }
     }
 }

@@ -235,7 +235,8 @@ mod tests {
     fn arc_cubics_stay_within_tolerance() {
         for tolerance in [1e-3, 1e-6, 1e-9] {
             let (u, v) = (Vec2::new(3.0, 1.0), Vec2::new(-0.5, 1.5));
-            let mut arc = Arc { centre: Point::ZERO, u, v, t0: 0.3, sweep: 1.7 * PI, start: Point::ZERO, end: Point::ZERO };
+            let mut arc =
+                Arc { centre: Point::ZERO, u, v, t0: 0.3, sweep: 1.7 * PI, start: Point::ZERO, end: Point::ZERO };
             arc.start = arc.eval(0.3);
             arc.end = arc.eval(0.3 + 1.7 * PI);
             let inverse = Affine::new([u.x, u.y, v.x, v.y, 0.0, 0.0]).inverse();

@@ -183,7 +183,10 @@ fn usvg_failure(e: usvg::Error) -> Failure {
     Failure::new(code, e.to_string())
 }
 
-fn convert(doc: &Document, settings: &Settings, fontdb: fontdb::Database) -> Result<(usvg::Tree, Vec<Arc<Vec<u8>>>), Failure> {
+/// The tree, and the SVG images inside it.
+type Converted = (usvg::Tree, Vec<Arc<Vec<u8>>>);
+
+fn convert(doc: &Document, settings: &Settings, fontdb: fontdb::Database) -> Result<Converted, Failure> {
     let embedded = Mutex::new(Embedded::default());
     let tree = {
         let options = usvg::Options {

@@ -69,7 +69,10 @@ impl Piece {
     pub fn part(&self, from: f64, to: f64, whole: f64, accuracy: f64) -> Piece {
         let (f0, f1) = (from / whole, to / whole);
         match self {
-            Piece::Line(a, b) => Piece::Line(if from <= 0.0 { *a } else { a.lerp(*b, f0) }, if to >= whole { *b } else { a.lerp(*b, f1) }),
+            Piece::Line(a, b) => Piece::Line(
+                if from <= 0.0 { *a } else { a.lerp(*b, f0) },
+                if to >= whole { *b } else { a.lerp(*b, f1) },
+            ),
             Piece::Circle(a) => {
                 let (t0, sweep) = (a.t0 + a.sweep * f0, a.sweep * (f1 - f0));
                 let start = if from <= 0.0 { a.start } else { a.eval(t0) };
@@ -142,7 +145,8 @@ fn push_line(a: Point, b: Point, shortest: f64, out: &mut Vec<Piece>) {
 /// A cubic; one whose control points lie on a line becomes the lines it runs through.
 fn push_cubic(mut c: CubicBez, cur: Point, shortest: f64, tolerance: f64, out: &mut Vec<Piece>) {
     c.p0 = cur;
-    let far = [c.p1, c.p2, c.p3].into_iter().max_by(|a, b| cur.distance_squared(*a).total_cmp(&cur.distance_squared(*b)));
+    let far =
+        [c.p1, c.p2, c.p3].into_iter().max_by(|a, b| cur.distance_squared(*a).total_cmp(&cur.distance_squared(*b)));
     let axis = far.map_or(Vec2::ZERO, |f| f - cur);
     if axis.hypot() <= shortest {
         return; // all control points together

@@ -42,12 +42,14 @@ impl Emitter<'_> {
         self.budget.check_time()?;
         let bytes = w * h * 4.0;
         if !(w * h <= MOST_PIXELS && bytes <= self.raster_bytes_left as f64) {
-            let mut failure = Failure::new(Code::TooManyPixels, format!("raster layers need more than the limit ({w} x {h} pixels)"));
+            let mut failure =
+                Failure::new(Code::TooManyPixels, format!("raster layers need more than the limit ({w} x {h} pixels)"));
             failure.place = name.to_string();
             return Err(failure);
         }
         self.raster_bytes_left -= bytes as u64;
-        Pixmap::new(w as u32, h as u32).ok_or_else(|| Failure::new(Code::TooManyPixels, "a raster layer can't be allocated"))
+        Pixmap::new(w as u32, h as u32)
+            .ok_or_else(|| Failure::new(Code::TooManyPixels, "a raster layer can't be allocated"))
     }
 
     /// The group as resvg renders it, with its filters, clip, mask and opacity; only its blend mode stays outside.
@@ -56,7 +58,8 @@ impl Emitter<'_> {
         self.check_images(g, &name)?;
         let to_pixel = Affine::scale(self.raster_scale);
         let region = (to_pixel * *own).transform_rect_bbox(rect_of(g.layer_bounding_box().to_rect()));
-        let canvas = round_out(Rect::new(0.0, 0.0, self.out.width, self.out.height).scale_from_origin(self.raster_scale));
+        let canvas =
+            round_out(Rect::new(0.0, 0.0, self.out.width, self.out.height).scale_from_origin(self.raster_scale));
         // What lies outside the canvas may still be blurred into it: render up to one canvas around.
         let wide = canvas.inflate(canvas.width(), canvas.height());
         let window = round_out(region).intersect(wide);
@@ -145,7 +148,9 @@ impl Emitter<'_> {
         if let ImageKind::SVG(tree) = image.kind() {
             let clip = self.out.clip(&[abi::ClipMember { shape, clip: abi::NONE }], abi::NONE);
             let isolated = self.has_blend(tree.root()) as u32;
-            return self.in_group(abi::Node { clip, isolated, ..EMPTY_GROUP }, |e| e.children(tree.root().children(), to_root));
+            return self.in_group(abi::Node { clip, isolated, ..EMPTY_GROUP }, |e| {
+                e.children(tree.root().children(), to_root)
+            });
         }
         if !(w * h <= MOST_PIXELS) {
             self.report.add(Finding::ImageDropped, format!("the bitmap is too large ({w} x {h} pixels)"), name);
@@ -186,7 +191,8 @@ impl Emitter<'_> {
         if worst <= MOST_PIXELS {
             return Ok(());
         }
-        let mut failure = Failure::new(Code::TooManyPixels, format!("content of {worst:.3e} pixels inside a raster layer"));
+        let mut failure =
+            Failure::new(Code::TooManyPixels, format!("content of {worst:.3e} pixels inside a raster layer"));
         failure.place = name.to_string();
         Err(failure)
     }

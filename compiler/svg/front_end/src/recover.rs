@@ -176,8 +176,8 @@ impl Recovery {
         let (w32, h32, m32) = (size.width() as f64, size.height() as f64, widen(wrapper));
         if let Some((w, h, m)) = self.root {
             let scale = w32.max(h32);
-            let pairs = m.as_coeffs().into_iter().zip(m32.as_coeffs());
-            let same_map = pairs.map(|(a, b)| close(a, b, b.abs().max(if b == 0.0 { scale } else { 0.0 }))).all(|x| x);
+            let mut pairs = m.as_coeffs().into_iter().zip(m32.as_coeffs());
+            let same_map = pairs.all(|(a, b)| close(a, b, if b == 0.0 { scale } else { b.abs() }));
             if close(w, w32, scale) && close(h, h32, scale) && same_map {
                 return (w, h, m);
             }

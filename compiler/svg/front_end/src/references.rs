@@ -56,7 +56,16 @@ struct Walk<'a, 'input> {
 fn is_definition(tag: &str) -> bool {
     matches!(
         tag,
-        "defs" | "symbol" | "clipPath" | "mask" | "pattern" | "marker" | "filter" | "linearGradient" | "radialGradient" | "style"
+        "defs"
+            | "symbol"
+            | "clipPath"
+            | "mask"
+            | "pattern"
+            | "marker"
+            | "filter"
+            | "linearGradient"
+            | "radialGradient"
+            | "style"
     )
 }
 
@@ -195,13 +204,17 @@ mod tests {
 
     #[test]
     fn self_reference_is_left_to_usvg() {
-        assert_eq!(verdict("<svg><pattern id='p'><rect fill='url(#p)'/></pattern><rect fill='url(#p)'/></svg>"), Ok(()));
+        assert_eq!(
+            verdict("<svg><pattern id='p'><rect fill='url(#p)'/></pattern><rect fill='url(#p)'/></svg>"),
+            Ok(())
+        );
         assert_eq!(verdict("<svg><g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g></svg>"), Ok(()));
     }
 
     #[test]
     fn circle_of_different_kinds_is_refused() {
-        let svg = "<svg><pattern id='p'><rect mask='url(#m)'/></pattern><mask id='m'><rect fill='url(#p)'/></mask></svg>";
+        let svg =
+            "<svg><pattern id='p'><rect mask='url(#m)'/></pattern><mask id='m'><rect fill='url(#p)'/></mask></svg>";
         assert_eq!(verdict(svg), Err(Code::TooDeep));
         let css = "<svg><style>.a{mask:url(#m)} .b{fill:url(#p)}</style><pattern id='p'><rect class='a'/></pattern>\
                    <mask id='m'><rect class='b'/></mask></svg>";

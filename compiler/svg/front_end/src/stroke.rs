@@ -7,8 +7,8 @@ use kurbo::{BezPath, CubicBez, PathEl, Point, Vec2};
 
 use crate::budget::{Budget, Failure};
 use crate::dash::{dash, Run};
-use crate::geom::{Arc, Bezier, Contour, Path, Seg};
 use crate::enclosing::enclosing_circle;
+use crate::geom::{Arc, Bezier, Contour, Path, Seg};
 use crate::piece::{pieces_of, turn_90, Piece};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -328,7 +328,8 @@ impl<'a> Stroker<'a> {
                 out.line_to(p + n + t);
             }
             Cap::Round => {
-                let arc = Arc { centre: p, u: -n, v: t, t0: 0.0, sweep: std::f64::consts::PI, start: p - n, end: p + n };
+                let arc =
+                    Arc { centre: p, u: -n, v: t, t0: 0.0, sweep: std::f64::consts::PI, start: p - n, end: p + n };
                 out.arc(&arc, self.tolerance);
             }
         }
@@ -371,7 +372,8 @@ impl<'a> Stroker<'a> {
         match self.style.join {
             Join::Round => {
                 let sweep = o.0.cross(o.1).atan2(dot).abs();
-                let arc = Arc { centre: p, u: o.0 * h, v: t.0 * h, t0: 0.0, sweep, start: p + o.0 * h, end: p + o.1 * h };
+                let arc =
+                    Arc { centre: p, u: o.0 * h, v: t.0 * h, t0: 0.0, sweep, start: p + o.0 * h, end: p + o.1 * h };
                 side.arc(&arc, self.tolerance);
             }
             Join::Miter | Join::MiterClip if limit * limit * (1.0 + dot) >= 2.0 => {
@@ -436,4 +438,3 @@ fn sample(piece: &Piece) -> Vec<Point> {
     };
     (0..=N).map(|i| at(i as f64 / N as f64)).collect()
 }
-

@@ -114,7 +114,14 @@ pub fn from_usvg(path: &tiny_skia_path::Path) -> Path {
     out.finish()
 }
 
-fn svg_arc(from: Point, to: Point, radii: (f64, f64), rotation: f64, large_arc: bool, sweep: bool) -> Option<kurbo::Arc> {
+fn svg_arc(
+    from: Point,
+    to: Point,
+    radii: (f64, f64),
+    rotation: f64,
+    large_arc: bool,
+    sweep: bool,
+) -> Option<kurbo::Arc> {
     let x_rotation = rotation.to_radians();
     kurbo::Arc::from_svg_arc(&SvgArc { from, to, radii: radii.into(), x_rotation, large_arc, sweep })
 }

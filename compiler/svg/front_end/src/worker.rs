@@ -32,10 +32,9 @@ pub fn load_guarded(data: Vec<u8>, settings: Settings) -> Result<Drawing, Failur
             let _ = thread.join();
             result
         }
-        Err(RecvTimeoutError::Timeout) => Err(Failure::new(
-            Code::Timeout,
-            format!("not read within {} ms", settings_ms(time - GRACE)),
-        )),
+        Err(RecvTimeoutError::Timeout) => {
+            Err(Failure::new(Code::Timeout, format!("not read within {} ms", settings_ms(time - GRACE))))
+        }
         Err(RecvTimeoutError::Disconnected) => Err(Failure::new(Code::Internal, "the reading thread ended early")),
     }
 }
