@@ -72,4 +72,9 @@ inline constexpr double kColourTie = 0x1p-30;
 /// Lattice steps: accuracy of the ground truth's distances. Evaluating a Bezier of coordinates up to 2^28 in double errs by 2^-23 at most.
 inline constexpr double kDistanceAccuracy = 1e-6;
 
+/// Curve parameter: a Newton step this short (two to four roundings of the parameter) has converged, being far shorter than the one
+/// before; what is left moves a point by less than 3·2^29·2^-53 < 2^-22 steps, about what evaluating the curve in double loses. Asking
+/// for less makes the iteration wander in its own rounding noise.
+inline constexpr double kParameterStop = 0x1p-52;
+
 } // namespace fetexc::budget

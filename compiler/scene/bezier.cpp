@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
+
 namespace fetexc::bezier {
 namespace {
 
@@ -96,8 +98,9 @@ double solve_monotone(const CanvasSegment& s, Axis axis, double target, double t
         ((error < 0) == rising ? lo : hi) = t;
         const double slope = derivative_at(s, axis, t);
         double next = t - error / slope;
+        if (std::abs(next - t) <= budget::kParameterStop && next >= t0 && next <= t1) return next;
         if (!(next > lo && next < hi) || step % 4 == 3) next = mix(lo, hi, 0.5);
-        if (next == t || next <= lo || next >= hi) return t;
+        if (next <= lo || next >= hi) return t;
         t = next;
     }
     return t;

@@ -12,7 +12,10 @@ constexpr auto kReach = static_cast<std::int64_t>(budget::kMergeDistance);
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-LatticePoint cell_of(LatticePoint p) { return {floor_div(p.x, kReach), floor_div(p.y, kReach)}; }
+/// Much larger than the reach, so that most points look into one cell only; leaders stay few per cell, being apart.
+constexpr std::int64_t kCell = 8 * kReach;
+
+LatticePoint cell_of(LatticePoint p) { return {floor_div(p.x, kCell), floor_div(p.y, kCell)}; }
 
 std::int64_t squared_distance(LatticePoint a, LatticePoint b) {
     const std::int64_t dx = a.x - b.x, dy = a.y - b.y;
@@ -30,34 +33,34 @@ std::size_t LatticePointHash::operator()(const LatticePoint& p) const noexcept {
 }
 
 void VertexMerge::add(LatticePoint p) {
-    Vertex& vertex = vertices_[p];
-    if (vertex.uses++ == 0) order_.push_back(p);
+    const auto [it, fresh] = vertices_.try_emplace(p);
+    ++it->second.uses;
+    if (fresh) order_.push_back(&*it);
 }
 
-void VertexMerge::settle(LatticePoint p) {
-    const LatticePoint cell = cell_of(p);
+void VertexMerge::settle(LatticePoint p, Vertex& vertex) {
+    const LatticePoint low = cell_of({p.x - kReach, p.y - kReach}), high = cell_of({p.x + kReach, p.y + kReach});
     std::optional<LatticePoint> nearest;
     std::int64_t best = kReach * kReach; // strictly closer only
-    for (std::int64_t cy = cell.y - 1; cy <= cell.y + 1; ++cy)
-        for (std::int64_t cx = cell.x - 1; cx <= cell.x + 1; ++cx) {
+    for (std::int64_t cy = low.y; cy <= high.y; ++cy)
+        for (std::int64_t cx = low.x; cx <= high.x; ++cx) {
             const auto found = leaders_by_cell_.find({cx, cy});
             if (found == leaders_by_cell_.end()) continue;
             for (const LatticePoint& candidate : found->second)
                 if (const std::int64_t d = squared_distance(p, candidate); d < best) best = d, nearest = candidate;
         }
-    Vertex& vertex = vertices_.at(p);
     vertex.leader = nearest.value_or(p);
     if (nearest)
         merged_ += vertex.uses;
     else
-        leaders_by_cell_[cell].push_back(p);
+        leaders_by_cell_[cell_of(p)].push_back(p);
 }
 
 void VertexMerge::run() {
-    for (const LatticePoint& p : order_)
-        if (vertices_.at(p).uses > 1) settle(p);
-    for (const LatticePoint& p : order_)
-        if (vertices_.at(p).uses == 1) settle(p);
+    for (auto* entry : order_)
+        if (entry->second.uses > 1) settle(entry->first, entry->second);
+    for (auto* entry : order_)
+        if (entry->second.uses == 1) settle(entry->first, entry->second);
 }
 
 } // namespace fetexc

@@ -18,6 +18,9 @@ struct LatticePointHash {
 /// become leaders before lone ones, so borders that are already shared exactly do not move.
 class VertexMerge {
   public:
+    VertexMerge() = default;
+    VertexMerge(const VertexMerge&) = delete; // order_ points into vertices_
+    VertexMerge& operator=(const VertexMerge&) = delete;
     void add(LatticePoint p);
     void run();
     /// Where an added point goes: itself or the nearest leader closer than the merge distance.
@@ -30,10 +33,11 @@ class VertexMerge {
         std::uint64_t uses = 0;
         LatticePoint leader;
     };
-    void settle(LatticePoint p);
+    using Vertices = std::unordered_map<LatticePoint, Vertex, LatticePointHash>;
+    void settle(LatticePoint p, Vertex& vertex);
 
-    std::unordered_map<LatticePoint, Vertex, LatticePointHash> vertices_;
-    std::vector<LatticePoint> order_; ///< distinct points in input order
+    Vertices vertices_;
+    std::vector<Vertices::value_type*> order_; ///< distinct points in input order; a hash map's nodes stay in place
     std::unordered_map<LatticePoint, std::vector<LatticePoint>, LatticePointHash> leaders_by_cell_;
     std::uint64_t merged_ = 0;
 };
