@@ -182,11 +182,12 @@ TEST(Cull, emptyOutsideAndTransparentFillsGo) {
 
 TEST(Cull, opaqueRectanglesHideWhatLiesUnderThem) {
     Drawing d;
-    d.fill(d.shape(10, 10, 20, 20));                                                     // hidden
-    d.group([&] { d.fill(d.shape(10, 10, 20, 20)), d.fill(d.shape(12, 12, 30, 30)); }).opacity = 0.5; // one of two hidden
-    d.fill(d.shape(-20, 5, 25, 25));                                                     // hidden: inside on the canvas
-    d.fill(d.shape(0, 0, 26, 26), {0, 1, 0, 1});                                         // the cover
-    d.fill(d.shape(10, 10, 20, 20));                                                     // above
+    d.fill(d.shape(10, 10, 20, 20)); // hidden
+    d.group([&] { d.fill(d.shape(10, 10, 20, 20)), d.fill(d.shape(12, 12, 30, 30)); }).opacity =
+        0.5;                                     // one of two hidden
+    d.fill(d.shape(-20, 5, 25, 25));             // hidden: inside on the canvas
+    d.fill(d.shape(0, 0, 26, 26), {0, 1, 0, 1}); // the cover
+    d.fill(d.shape(10, 10, 20, 20));             // above
     const Scene scene = d.finish();
     EXPECT_EQ(scene.stats.layers_hidden, 3u);
     EXPECT_EQ(scene.nodes.size(), 3u);
@@ -205,15 +206,15 @@ TEST(Cull, coversMustBeOpaqueRectanglesAtRootLevel) {
     EXPECT_EQ(hidden_under([&](Drawing& d) { d.fill(d.shape(0, 0, 30, 30), {0, 1, 0, 0.99}); }), 0u);
     EXPECT_EQ(hidden_under([&](Drawing& d) { d.fill(d.shape(0, 0, 30, 30), green).opacity = 0.99; }), 0u);
     EXPECT_EQ(hidden_under([&](Drawing& d) { d.fill(d.shape(11, 0, 30, 30), green); }), 0u);
-    EXPECT_EQ(hidden_under([&](Drawing& d) {
-                  d.fill(d.shape(0, 0, 30, 30), green).clip = d.clip(d.shape(0, 0, 15, 15));
-              }),
-              0u);
-    EXPECT_EQ(hidden_under([&](Drawing& d) {
-                  d.fill(d.builder.add_shape({test::polygon({{0, 0}, {40, 0}, {40, 1}, {0, 40}})}, FillRule::NonZero, kNone),
-                         green);
-              }),
-              0u);
+    EXPECT_EQ(
+        hidden_under([&](Drawing& d) { d.fill(d.shape(0, 0, 30, 30), green).clip = d.clip(d.shape(0, 0, 15, 15)); }),
+        0u);
+    EXPECT_EQ(
+        hidden_under([&](Drawing& d) {
+            d.fill(d.builder.add_shape({test::polygon({{0, 0}, {40, 0}, {40, 1}, {0, 40}})}, FillRule::NonZero, kNone),
+                   green);
+        }),
+        0u);
     EXPECT_EQ(hidden_under([&](Drawing& d) {
                   d.group([&] { d.fill(d.shape(0, 0, 30, 30), green), d.fill(d.shape(0, 0, 5, 5), green); }).blend =
                       Blend::Screen;
@@ -319,7 +320,9 @@ std::vector<InvalidCase> invalid_cases() {
         {"clip member", diag::kSceneReferenceInvalid, [](Drawing& d) { d.clip(77); }},
         {"clip cycle", diag::kSceneTooLarge, [](Drawing& d) { d.clip(0, 0); }},
         {"mask range", diag::kSceneReferenceInvalid,
-         [](Drawing& d) { d.builder.scene().masks.push_back({5, 3, true, false, kNone, kNone}); }},
+         [](Drawing& d) {
+             d.builder.scene().masks.push_back({5, 3, true, false, kNone, kNone});
+         }},
         {"mask in itself", diag::kSceneTooLarge,
          [](Drawing& d) { d.mask([&] { d.group([&] { d.fill(0); }).mask = 0; }); }},
         {"deep groups", diag::kSceneTooLarge,
@@ -343,8 +346,12 @@ std::vector<InvalidCase> invalid_cases() {
                          d.group([&] { d.fill(0); }).mask = i == 0 ? kNone : i - 1;
                  });
          }},
-        {"colour", diag::kScenePaintInvalid, [nan](Drawing& d) { d.solid({nan, 0, 0, 1}); }},
-        {"no stops", diag::kScenePaintInvalid, [](Drawing& d) { d.builder.scene().paints.emplace_back(LinearPaint{}); }},
+        {"colour", diag::kScenePaintInvalid,
+         [nan](Drawing& d) {
+             d.solid({nan, 0, 0, 1});
+         }},
+        {"no stops", diag::kScenePaintInvalid,
+         [](Drawing& d) { d.builder.scene().paints.emplace_back(LinearPaint{}); }},
         {"unordered stops", diag::kScenePaintInvalid,
          [](Drawing& d) {
              LinearPaint paint;
@@ -399,8 +406,10 @@ TEST(Clips, deepNestingOfClipGroupsKeepsItsMeaning) {
     const std::uint32_t half = d.shape(0, 0, 50, 100), all = d.shape(0, 0, 100, 100);
     std::function<void(int)> nest = [&](int depth) {
         const std::uint32_t chain = d.clip(all, d.clip(depth == 0 ? half : all, d.clip(all)));
-        if (depth == 0) d.fill(d.shape(10, 10, 90, 90)).clip = chain;
-        else d.group([&] { nest(depth - 1); }).clip = chain;
+        if (depth == 0)
+            d.fill(d.shape(10, 10, 90, 90)).clip = chain;
+        else
+            d.group([&] { nest(depth - 1); }).clip = chain;
     };
     nest(400); // 1,200 clips in a row: more than one chain may hold
     const Scene scene = d.finish();
