@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "compiler/error_budget.h"
@@ -238,6 +239,73 @@ TEST(SvgStroke, cubicOutlineStaysWithinTolerance) {
     }
     EXPECT_GT(checked, 100);
     EXPECT_LT(s.segments.size(), 80u) << "not hundreds of pieces for one curve";
+}
+
+/// A random path of cubics and lines as `d`, and points along it 0.02 apart or closer.
+struct RandomPath {
+    std::string d;
+    std::vector<CanvasPoint> samples;
+};
+
+RandomPath random_path(std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(25, 75);
+    const auto point = [&] { return CanvasPoint{std::round(coordinate(random)), std::round(coordinate(random))}; };
+    const auto text = [](CanvasPoint p) { return std::to_string(p.x) + " " + std::to_string(p.y) + " "; };
+    RandomPath path;
+    CanvasPoint p0 = point();
+    const CanvasPoint start = p0;
+    path.d = "M" + text(p0);
+    const auto curve = [&](CanvasPoint p1, CanvasPoint p2, CanvasPoint p3) {
+        for (int i = 0; i <= 5000; ++i) {
+            const double t = i / 5000.0, u = 1 - t, a = u * u * u, b = 3 * u * u * t, c = 3 * u * t * t, e = t * t * t;
+            path.samples.push_back(
+                {a * p0.x + b * p1.x + c * p2.x + e * p3.x, a * p0.y + b * p1.y + c * p2.y + e * p3.y});
+        }
+        p0 = p3;
+    };
+    const int count = 1 + static_cast<int>(random() % 3);
+    for (int k = 0; k < count; ++k) {
+        const CanvasPoint p1 = point(), p2 = point(), p3 = point();
+        const bool line = random() % 4 == 0;
+        path.d += line ? "L" + text(p3) : "C" + text(p1) + text(p2) + text(p3);
+        line ? curve(p0, p3, p3) : curve(p1, p2, p3);
+    }
+    if (random() % 3 == 0) {
+        path.d += "z";
+        curve(p0, start, start);
+    }
+    return path;
+}
+
+TEST(SvgStroke, roundStrokeIsEveryPointNearThePath) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> coordinate(0, 100);
+    long wrong = 0, checked = 0;
+    for (int k = 0; k < 150; ++k) {
+        const RandomPath path = random_path(random);
+        const double width = std::array{2.0, 8.0, 20.0, 45.0}[static_cast<std::size_t>(k % 4)];
+        const Scene scene = load(stroke(path.d, "stroke-linecap='round' stroke-linejoin='round' stroke-width='" +
+                                                    std::to_string(width) + "'"));
+        const GroundTruth truth(scene);
+        const double unit = static_cast<double>(scene.extent.lattice_w) / 100;
+        for (int i = 0; i < 300; ++i) {
+            const double x = coordinate(random), y = coordinate(random);
+            double nearest = INFINITY;
+            for (const CanvasPoint& s : path.samples)
+                nearest = std::min(nearest, (s.x - x) * (s.x - x) + (s.y - y) * (s.y - y));
+            nearest = std::sqrt(nearest);
+            if (std::abs(nearest - width / 2) < 0.05) continue; // too near the border for the samples
+            const bool inside = !truth.inside(x * unit, y * unit).empty();
+            ++checked;
+            if (inside == (nearest < width / 2)) continue;
+            ++wrong;
+            if (wrong < 20)
+                ADD_FAILURE() << path.d << " width " << width << " at " << x << " " << y << ": "
+                              << (inside ? "inside" : "outside") << ", distance " << nearest;
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(checked, 40000);
 }
 
 TEST(SvgStroke, collinearCubicIsLines) {
