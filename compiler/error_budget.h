@@ -22,6 +22,9 @@ inline constexpr double kSplitError = 16 * kUnitRoundoff;
 /// root can't be told apart below the square root of the evaluation error (2^-24), simple roots are certified long before.
 inline constexpr double kFilterMinWidth = 0x1p-36;
 
+/// Part of a box: after eight Newton steps a step this small is worth a certificate. Decides nothing: the Krawczyk test does.
+inline constexpr double kNewtonSettled = 1e-3;
+
 /// Box pairs the filter looks at before it hands the pair to exact arithmetic; generic pairs need 1…60.
 inline constexpr int kFilterMaxBoxes = 1500;
 

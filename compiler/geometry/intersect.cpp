@@ -214,7 +214,7 @@ class Filter {
             s -= ds, t -= dt;
             if (!(std::fabs(s - s0) <= 4 * ws && std::fabs(t - t0) <= 4 * wt)) return false;
             converged =
-                std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff || (k > 8 && std::fabs(ds) < 1e-3 * ws);
+                std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff || (k > 8 && std::fabs(ds) < budget::kNewtonSettled * ws);
         }
         return converged && certify(pair, s, t);
     }
