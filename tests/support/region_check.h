@@ -15,9 +15,8 @@ struct RegionCheck {
     std::uint64_t wrong = 0;     ///< sampled region shows another result than the scene
     std::uint64_t wrong_far = 0; ///< … farther than budget::kRegionTolerance from every curve
     std::uint64_t color_off = 0; ///< right region, solid, but more than 1/255 off in a channel
-    double worst_distance =
-        0; ///< of the wrong points, in texels (their larger side: a lower bound where texels are not square)
-    std::string worst; ///< where: "texel-space x y, expected …"
+    double worst_distance = 0;   ///< of the wrong points, in texels: each axis in its own texel side
+    std::string worst;           ///< where: "texel-space x y, expected …"
 };
 
 /// points uniform in the texture, seeded.
