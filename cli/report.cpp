@@ -41,6 +41,8 @@ std::string planar_text(const PlanarStats& p) {
     text +=
         fmt::format("  planar map {} crossings, {} grid crossings, {} vertices, {} edges, {} trapezoids, {} regions\n",
                     p.crossings, p.grid_crossings, p.vertices, p.edges, p.trapezoids, p.regions);
+    text += fmt::format("  reachable  {} parts of the picture separated by visible edges ({} vertices, {} links)\n",
+                        p.regions_connected, p.reach_vertices, p.reach_links);
     text += fmt::format("  edges      {} visible, {} invisible ones dropped\n", p.edges_visible, p.edges_invisible);
     return text;
 }
@@ -98,7 +100,9 @@ Json planar_json(const PlanarStats& p) {
         {"trapezoids", p.trapezoids},
         {"regions", p.regions},
         {"edgesVisible", p.edges_visible},
-        {"edgesInvisible", p.edges_invisible}};
+        {"edgesInvisible", p.edges_invisible},
+        {"reachability",
+         {{"vertices", p.reach_vertices}, {"links", p.reach_links}, {"components", p.regions_connected}}}};
 }
 
 Json fbt_json(const FbtStats& f) {
@@ -112,7 +116,8 @@ Json fbt_json(const FbtStats& f) {
             {"pieces", f.pieces},
             {"regions", f.regions},
             {"regionsInterpolated", f.regions_interpolated},
-            {"sliversCollapsed", f.slivers_collapsed}};
+            {"sliversCollapsed", f.slivers_collapsed},
+            {"partsLost", f.parts_lost}};
 }
 
 Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {

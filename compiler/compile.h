@@ -37,6 +37,8 @@ struct PlanarStats {
     std::uint64_t exact_comparisons = 0; ///< order or side decisions that intervals couldn't make
     std::uint64_t texels = 0, texels_empty = 0, texels_simple = 0, texels_arranged = 0;
     std::uint64_t trapezoids = 0, regions = 0, edges_invisible = 0, edges_visible = 0;
+    std::uint64_t reach_vertices = 0, reach_links = 0; ///< reachability graph (FBT §4.4)
+    std::uint64_t regions_connected = 0;               ///< of the whole texture: what visible edges separate
 };
 struct FbtStats {
     std::uint64_t texels_empty = 0, texels_two_regions = 0, texels_more_regions = 0, texels_banded = 0;
@@ -44,7 +46,9 @@ struct FbtStats {
     std::uint64_t bands_avoided = 0; ///< horizontal lines of the trapezoid decomposition that became no band line
     std::uint64_t features = 0, pieces = 0, regions = 0, regions_interpolated = 0;
     std::uint64_t runs_shared = 0, pieces_demoted = 0;
-    std::uint64_t slivers_collapsed = 0, gpu_bytes = 0;
+    std::uint64_t slivers_collapsed = 0; ///< regions of texels of which quantisation left nothing
+    std::uint64_t parts_lost = 0;        ///< parts of the picture all of whose regions collapsed (W4101)
+    std::uint64_t gpu_bytes = 0;
 };
 struct CompileReport {
     SceneStats scene;

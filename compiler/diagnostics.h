@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The numbers of all errors and diagnostics. A number never changes its meaning; README.md lists them for users.
-/// 1xxx input/front end errors, 2xxx front end warnings, 3xxx scene, 4xxx geometry and planar map, 5xxx representations,
-/// 6xxx container and validation, 7xxx runtime (GL), 8xxx command line and I/O.
+/// 1xxx input/front end errors, 2xxx front end warnings, 3xxx scene, 4xxx geometry and planar map, 5xxx
+/// representations, 6xxx container and validation, 7xxx runtime (GL), 8xxx command line and I/O.
 #pragma once
 
 namespace fetexc::diag {
+
+// One line each: tests/tools/diagnostics_table.py reads them.
+// clang-format off
 
 // SVG front end (owner: compiler/svg): errors
 inline constexpr int kSvgMalformed = 1001;       ///< not XML, or not an SVG
@@ -54,7 +57,7 @@ inline constexpr int kScenePaintInvalid = 3005;      ///< a paint holds a non-fi
 // Geometry and planar map (owner: compiler/geometry, compiler/planar)
 inline constexpr int kPlanarInconsistent = 4001;   ///< an internal invariant of the planar map failed; nothing is written
 inline constexpr int kTooManyIntersections = 4002; ///< limit on arrangement size exceeded
-inline constexpr int kSliversCollapsed = 4101;     ///< regions thinner than the output grid were collapsed (count)
+inline constexpr int kSliversCollapsed = 4101;     ///< parts of the picture, everywhere thinner than the output grid, were left out (count)
 
 // Representations (owner: compiler/fbt)
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
@@ -78,5 +81,7 @@ inline constexpr int kInternal = 8052;            ///< an error of the program i
 // Container, seen from the command line; the findings themselves are F numbers (formats/findings.h)
 inline constexpr int kInvalidFetex = 6001;          ///< the .fetex file breaks a rule of SPEC.md
 inline constexpr int kNoSuchRepresentation = 6002;  ///< the file is fine but holds no FBT
+
+// clang-format on
 
 } // namespace fetexc::diag

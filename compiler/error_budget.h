@@ -7,38 +7,44 @@ namespace fetexc::budget {
 /// Unit roundoff of double: |fl(a∘b) − a∘b| ≤ kUnitRoundoff·|a∘b|.
 inline constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Added to every widening so that results near 0 stay enclosed; far below any quantity of the compiler (smallest: 2^-60 steps).
+/// Added to every widening so that results near 0 stay enclosed; far below any quantity of the compiler (smallest:
+/// 2^-60 steps).
 inline constexpr double kUnderflowGuard = 0x1p-1000;
 
-/// de Casteljau in double, degree ≤ 3, |t| ≤ 2, control values at most M from their origin: three levels of a + t(b − a), each with
-/// three roundings of values ≤ 4·M, doubled twice more by |t| ≤ 2: less than 64 roundings of M. For t in [0,1] a quarter of that.
+/// de Casteljau in double, degree ≤ 3, |t| ≤ 2, control values at most M from their origin: three levels of a + t(b −
+/// a), each with three roundings of values ≤ 4·M, doubled twice more by |t| ≤ 2: less than 64 roundings of M. For t in
+/// [0,1] a quarter of that.
 inline constexpr double kEvaluationError = 64 * kUnitRoundoff;
 
-/// One de Casteljau split of control values at most M: three levels of a + u·(b − a), each with roundings of 2M, 2M and M, convexly
-/// averaged afterwards: less than 16 roundings of M per split.
+/// One de Casteljau split of control values at most M: three levels of a + u·(b − a), each with roundings of 2M, 2M and
+/// M, convexly averaged afterwards: less than 16 roundings of M per split.
 inline constexpr double kSplitError = 16 * kUnitRoundoff;
 
-/// Relative parameter width below which the intersection filter hands a pair to exact arithmetic: the enclosures of a double
-/// root can't be told apart below the square root of the evaluation error (2^-24), simple roots are certified long before.
+/// Relative parameter width below which the intersection filter hands a pair to exact arithmetic: the enclosures of a
+/// double root can't be told apart below the square root of the evaluation error (2^-24), simple roots are certified
+/// long before.
 inline constexpr double kFilterMinWidth = 0x1p-36;
 
-/// Part of a box: after eight Newton steps a step this small is worth a certificate. Decides nothing: the Krawczyk test does.
+/// Part of a box: after eight Newton steps a step this small is worth a certificate. Decides nothing: the Krawczyk test
+/// does.
 inline constexpr double kNewtonSettled = 1e-3;
 
 /// Box pairs the filter looks at before it hands the pair to exact arithmetic; generic pairs need 1…60.
 inline constexpr int kFilterMaxBoxes = 1500;
 
-/// Part of a parameter range: the first guess for the half width of a root's enclosure is never larger (the square root of a double's
-/// resolution, with some room: what a double root needs); the enclosure is widened from there until it is certified.
+/// Part of a parameter range: the first guess for the half width of a root's enclosure is never larger (the square root
+/// of a double's resolution, with some room: what a double root needs); the enclosure is widened from there until it is
+/// certified.
 inline constexpr double kFirstWidening = 0x1p-30;
 
-/// Bits of a certified refinement in exact arithmetic: first try, and the limit at which two curves that never separate are
-/// reported as an inconsistency instead of looping (2^-4096 of a parameter is beyond any root separation seen).
+/// Bits of a certified refinement in exact arithmetic: first try, and the limit at which two curves that never separate
+/// are reported as an inconsistency instead of looping (2^-4096 of a parameter is beyond any root separation seen).
 inline constexpr int kRefineBits = 96;
 inline constexpr int kRefineBitsLimit = 4096;
 
-/// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below this. The point
-/// lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by any output.
+/// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below
+/// this. The point lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by
+/// any output.
 inline constexpr int kSameBranchBits = 60;
 
 /// Lattice steps; end points closer than this are one vertex: 2^-20 of the extent of 2^26 steps (DESIGN §3).
@@ -47,37 +53,41 @@ inline constexpr double kMergeDistance = 64.0;
 /// Arcs become cubics that stay within this many lattice steps of the true arc (one step, DESIGN §4).
 inline constexpr double kArcTolerance = 1.0;
 
-/// Stroke outlines: largest distance, in lattice steps, between the cubic outline and the true offset curve: 2^-22 of the extent, a
-/// quarter of the merge distance. At 256 texels that is two steps of the output grid (2^-15 texel); offsets of cubics need
-/// 1.6 times as many segments for each factor 2^4 of accuracy.
+/// Stroke outlines: largest distance, in lattice steps, between the cubic outline and the true offset curve: 2^-22 of
+/// the extent, a quarter of the merge distance. At 256 texels that is two steps of the output grid (2^-15 texel);
+/// offsets of cubics need 1.6 times as many segments for each factor 2^4 of accuracy.
 inline constexpr double kStrokeTolerance = 16.0;
 
 /// Gradient stops closer than this are one hard edge: the SVG parser moves equal offsets apart by 2^-23 up to twice.
 inline constexpr double kHardEdgeGap = 3e-7;
 
-/// Relative to the larger canvas side: how far the regions of gradient bands reach beyond the canvas. Anything positive does.
+/// Relative to the larger canvas side: how far the regions of gradient bands reach beyond the canvas. Anything positive
+/// does.
 inline constexpr double kBandMargin = 0x1p-4;
 
 /// Texels; one step of the u16 output grid on [-1/2, 3/2).
 inline constexpr double kOutputStep = 0x1p-15;
 
-/// Texels; a piece is stored with a lower degree when that moves it by no more than this: an eighth of the region tolerance.
+/// Texels; a piece is stored with a lower degree when that moves it by no more than this: an eighth of the region
+/// tolerance.
 inline constexpr double kDemotionTolerance = 0x1p-17;
 
 /// Texels; a sampled point farther than this from every edge is in the right region: half a diagonal of the output grid
-/// (2^-16·√2) for a control point, the same again for the f32 evaluation and the parameter stop of the sampler (DESIGN §7).
+/// (2^-16·√2) for a control point, the same again for the f32 evaluation and the parameter stop of the sampler (DESIGN
+/// §7).
 inline constexpr double kRegionTolerance = 0x1p-14;
 
-/// Steps of an 8-bit colour channel: compositing k layers rounds k·2^-51 of a step at most, so a product that is an exact tie lands within
-/// this of it for any k below 2^20, and always rounds up.
+/// Steps of an 8-bit colour channel: compositing k layers rounds k·2^-51 of a step at most, so a product that is an
+/// exact tie lands within this of it for any k below 2^20, and always rounds up.
 inline constexpr double kColourTie = 0x1p-30;
 
-/// Lattice steps: accuracy of the ground truth's distances. Evaluating a Bezier of coordinates up to 2^28 in double errs by 2^-23 at most.
+/// Lattice steps: accuracy of the ground truth's distances. Evaluating a Bezier of coordinates up to 2^28 in double
+/// errs by 2^-23 at most.
 inline constexpr double kDistanceAccuracy = 1e-6;
 
-/// Curve parameter: a Newton step this short (two to four roundings of the parameter) has converged, being far shorter than the one
-/// before; what is left moves a point by less than 3·2^29·2^-53 < 2^-22 steps, about what evaluating the curve in double loses. Asking
-/// for less makes the iteration wander in its own rounding noise.
+/// Curve parameter: a Newton step this short (two to four roundings of the parameter) has converged, being far shorter
+/// than the one before; what is left moves a point by less than 3·2^29·2^-53 < 2^-22 steps, about what evaluating the
+/// curve in double loses. Asking for less makes the iteration wander in its own rounding noise.
 inline constexpr double kParameterStop = 0x1p-52;
 
 } // namespace fetexc::budget

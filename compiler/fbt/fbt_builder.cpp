@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <sstream>
 
 #include "compiler/diagnostics.h"
 #include "compiler/fbt/row_writer.h"
@@ -60,12 +61,6 @@ void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
     a.max_entries = std::max(a.max_entries, b.max_entries), a.max_bands = std::max(a.max_bands, b.max_bands);
 }
 
-Error inconsistent(std::uint32_t i, std::uint32_t j) {
-    return {ErrorClass::Runtime, diag::kPlanarInconsistent,
-            "the planar map contradicts itself; please report this file",
-            "texel (" + std::to_string(i) + ", " + std::to_string(j) + ")"};
-}
-
 class Builder {
   public:
     Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
@@ -78,10 +73,13 @@ class Builder {
         std::vector<RowOutput> rows(g.height);
         std::vector<PlanarStats> stats(g.height);
         std::vector<Status> status(g.height);
+        std::vector<ReachabilityRow> reach;
+        for (std::uint32_t j = 0; j < g.height; ++j)
+            reach.emplace_back(map_, j);
         tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options_.threads));
         arena.execute([&] {
             tbb::parallel_for(0u, g.height, [&](std::uint32_t j) {
-                status[j] = build_row(j, rows[j], stats[j]);
+                status[j] = build_row(j, rows[j], reach[j], stats[j]);
                 progress_.row_done();
             });
         });
@@ -90,11 +88,29 @@ class Builder {
         }
         for (const PlanarStats& s : stats)
             add(report.planar, s);
-        return join(rows, std::move(report), regions);
+        ReachabilityGraph graph(map_, reach);
+        if (graph.conflict()) return inconsistent(graph.conflict()->i, graph.conflict()->j);
+        report.planar.reach_vertices = graph.vertices(), report.planar.reach_links = graph.links().size();
+        report.planar.regions_connected = graph.component_count();
+        return join(rows, std::move(report), std::move(graph), regions);
     }
 
   private:
-    Status build_row(std::uint32_t j, RowOutput& out, PlanarStats& stats) {
+    /// For people: the texel, and where it is on the canvas.
+    [[nodiscard]] std::string place_of(std::uint32_t i, std::uint32_t j) const {
+        const Grid& g = map_.grid();
+        const CanvasPoint p = to_canvas(scene_, g, static_cast<double>(g.px * i), static_cast<double>(g.py * j));
+        std::ostringstream out;
+        out << "texel (" << i << ", " << j << "), canvas (" << p.x << ", " << p.y << ")";
+        return out.str();
+    }
+
+    [[nodiscard]] Error inconsistent(std::uint32_t i, std::uint32_t j) const {
+        return {ErrorClass::Runtime, diag::kPlanarInconsistent,
+                "the planar map contradicts itself; please report this file", place_of(i, j)};
+    }
+
+    Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow& reach, PlanarStats& stats) {
         TexelMapper mapper(map_, scene_, compositor_, stats);
         RowWriter writer(map_, sampler_, out);
         TexelMap texel;
@@ -105,15 +121,22 @@ class Builder {
             const std::span<const SubEdge> edges = map_.sub_edges(i, j);
             ++stats.texels;
             ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
-            if (edges.empty()) return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            if (edges.empty()) {
+                reach.add_empty(corners_.at(i, j));
+                return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            }
             if (!mapper.analyse(i, j, corner, texel) || !build_features(map_, mapper, texel, features)) {
                 status = inconsistent(i, j);
                 return;
             }
             stats.edges_visible += features.edges_visible, stats.edges_invisible += features.edges_invisible;
-            if (features.bands.empty()) return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            if (features.bands.empty()) {
+                reach.add_empty(corners_.at(i, j));
+                return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+            }
+            const std::uint32_t vertex = reach.add_texel(texel, features.region_of_face, features.region_result);
             out.stats.bands_avoided += levels(texel) - std::min(levels(texel), features.bands.size() - 1);
-            writer.write_texel(corners_.rgba(i, j), texel, features);
+            writer.write_texel(corners_.rgba(i, j), texel, features, vertex);
         });
         return status;
     }
@@ -127,7 +150,8 @@ class Builder {
         return n;
     }
 
-    Result<FbtBuild> join(std::vector<RowOutput>& rows, CompileReport report, FbtRegions* regions) {
+    Result<FbtBuild> join(std::vector<RowOutput>& rows, CompileReport report, ReachabilityGraph graph,
+                          FbtRegions* regions) {
         FbtBuild build;
         build.report = std::move(report);
         fetex::FbtTexture& t = build.texture;
@@ -135,28 +159,61 @@ class Builder {
         for (const RowOutput& row : rows)
             add(t.traits, row.traits), add(build.report.fbt, row.stats);
         t.apron = t.traits.interpolated ? 1 : 0;
+        std::vector<std::uint32_t> collapsed; // vertices of the graph
         for (std::uint32_t j = 0; j < t.height; ++j) {
+            for (std::uint32_t v : rows[j].collapsed)
+                collapsed.push_back(graph.row_start(j) + v);
             const std::uint64_t base = t.records.size() / 4;
             if (base + rows[j].records.size() / 4 > fetex::kFbtAddressMask) {
                 return Error{ErrorClass::Unsupported, diag::kFbtTooLarge,
                              "the texture needs more records than the format can address", ""};
             }
-            append_row(rows[j], static_cast<std::uint32_t>(base), t, regions);
+            append_row(rows[j], static_cast<std::uint32_t>(base), graph.row_start(j), t, regions);
             if (t.apron == 1) append_corner(t.width, j, t);
         }
         for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i)
             append_corner(i, t.height, t);
         build.report.fbt.gpu_bytes = (t.texels.size() + t.records.size()) * sizeof(std::uint32_t);
+        report_lost(collapsed, graph, build.report);
         if (regions != nullptr) {
             for (std::uint32_t j = 0; j <= t.height; ++j) {
                 for (std::uint32_t i = 0; i <= t.width; ++i)
                     regions->corners.push_back(corners_.at(i, j));
             }
+            regions->reachability = std::move(graph);
         }
         return build;
     }
 
-    static void append_row(RowOutput& row, std::uint32_t base, fetex::FbtTexture& t, FbtRegions* regions) {
+    /// Parts of the picture of which no texel has anything left. (A collapsed piece of a larger part loses nothing that
+    /// could be seen.)
+    void report_lost(const std::vector<std::uint32_t>& collapsed, const ReachabilityGraph& graph,
+                     CompileReport& report) const {
+        if (collapsed.empty()) return;
+        const std::vector<std::uint32_t> part = graph.components();
+        std::vector<bool> is_collapsed(part.size(), false), seen(part.size(), false);
+        for (std::uint32_t v : collapsed)
+            is_collapsed[v] = true;
+        for (std::uint32_t v = 0; v < part.size(); ++v) {
+            if (!is_collapsed[v]) seen[part[v]] = true;
+        }
+        std::uint64_t lost = 0;
+        std::string first;
+        for (std::uint32_t v : collapsed) {
+            if (seen[part[v]]) continue;
+            seen[part[v]] = true;
+            if (lost++ == 0) first = place_of(graph.column(v), graph.row(v));
+        }
+        if (lost == 0) return;
+        report.fbt.parts_lost = lost;
+        report.diagnostics.push_back({Severity::Warning, diag::kSliversCollapsed,
+                                      std::to_string(lost) + (lost == 1 ? " part" : " parts") +
+                                          " of the picture, everywhere thinner than the output grid, left out",
+                                      first});
+    }
+
+    static void append_row(RowOutput& row, std::uint32_t base, std::uint32_t first_vertex, fetex::FbtTexture& t,
+                           FbtRegions* regions) {
         for (std::uint32_t w : row.relocate)
             row.records[w] += base;
         for (std::size_t k = 1; k < row.texels.size(); k += 2) {
@@ -164,8 +221,8 @@ class Builder {
         }
         t.texels.insert(t.texels.end(), row.texels.begin(), row.texels.end());
         t.records.insert(t.records.end(), row.records.begin(), row.records.end());
-        for (const auto& [record, result] : row.entries) {
-            if (regions != nullptr) regions->entries.emplace_back(record + base, result);
+        for (const RegionEntry& e : row.entries) {
+            if (regions != nullptr) regions->entries.push_back({e.record + base, e.result, e.vertex + first_vertex});
         }
         row = {};
     }
@@ -194,11 +251,21 @@ GridSize complete(const Extent& e, GridSize s) {
     return s;
 }
 
+const RegionEntry& entry_of(const std::vector<RegionEntry>& entries, std::uint32_t record) {
+    return *std::lower_bound(entries.begin(), entries.end(), record,
+                             [](const RegionEntry& e, std::uint32_t r) { return e.record < r; });
+}
+
 } // namespace
 
 ResultId FbtRegions::result_of(const fetex::FbtRegion& region, std::uint32_t width) const {
     if (region.record == 0xffffffffu) return corners[static_cast<std::size_t>(region.j) * (width + 1) + region.i];
-    return std::lower_bound(entries.begin(), entries.end(), std::pair(region.record, 0u))->second;
+    return entry_of(entries, region.record).result;
+}
+
+std::uint32_t FbtRegions::vertex_of(const fetex::FbtRegion& region) const {
+    if (region.record == 0xffffffffu) return reachability->first_vertex(region.i, region.j);
+    return entry_of(entries, region.record).vertex;
 }
 
 GridSize grid_for(const Extent& extent, std::uint32_t longer_side) {

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "compiler/compile.h"
+#include "compiler/fbt/row_writer.h"
+#include "compiler/planar/reachability.h"
 #include "compiler/scene/compositor.h"
 
 namespace fetexc {
@@ -14,12 +17,14 @@ namespace fetexc {
 /// For tests: which visible result each region of the texture stands for, in a compositor of the same scene.
 struct FbtRegions {
     std::unique_ptr<Compositor> compositor;
-    std::vector<std::pair<std::uint32_t, ResultId>>
-        entries;                   ///< record index of an entry (last run or terminator), ascending
-    std::vector<ResultId> corners; ///< (width+1)×(height+1): result of the corner region of each texel
+    std::vector<RegionEntry> entries; ///< ascending records
+    std::vector<ResultId> corners;    ///< (width+1)×(height+1): result of the corner region of each texel
+    std::optional<ReachabilityGraph> reachability;
 
     /// Result at a located region (fetex::fbt_locate).
     [[nodiscard]] ResultId result_of(const fetex::FbtRegion& region, std::uint32_t width) const;
+    /// Its vertex in the reachability graph.
+    [[nodiscard]] std::uint32_t vertex_of(const fetex::FbtRegion& region) const;
 };
 
 /// Same bytes for any thread count. The scene must outlive `regions`.

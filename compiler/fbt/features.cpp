@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "compiler/union_find.h"
 #include "formats/fbt.h"
 
 namespace fetexc {
@@ -14,19 +15,17 @@ namespace {
 class RegionFinder {
   public:
     RegionFinder(const TexelMap& texel, TexelFeatures& out)
-        : texel_(texel), out_(out), parent_(texel.sweep.faces.size()) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
+        : texel_(texel), out_(out), joined_(texel.sweep.faces.size()) {}
 
     /// Returns the visible sub-edges.
     std::vector<std::uint32_t> run() {
         const SweepResult& s = texel_.sweep;
         std::vector<std::uint32_t> visible;
         for (std::uint32_t f = 0; f < s.faces.size(); ++f)
-            unite(f, s.face(f));
+            joined_.unite(f, s.face(f));
         for (const Portion& p : s.portions) {
             if (texel_.left_result(p) == texel_.right_result(p))
-                unite(p.left, p.right);
+                joined_.unite(p.left, p.right);
             else
                 visible.push_back(texel_.edges[p.edge].sub);
         }
@@ -37,21 +36,12 @@ class RegionFinder {
     }
 
   private:
-    std::uint32_t find(std::uint32_t f) {
-        while (parent_[f] != f)
-            f = parent_[f] = parent_[parent_[f]];
-        return f;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
     void number_regions() {
-        std::vector<std::uint32_t> number(parent_.size(), kNone);
-        out_.region_of_face.resize(parent_.size());
+        std::vector<std::uint32_t> number(joined_.size(), kNone);
+        out_.region_of_face.resize(joined_.size());
         out_.region_result.clear();
-        for (std::uint32_t f = 0; f < parent_.size(); ++f) {
-            const std::uint32_t r = find(f);
+        for (std::uint32_t f = 0; f < joined_.size(); ++f) {
+            const std::uint32_t r = joined_.find(f);
             if (number[r] == kNone) {
                 number[r] = static_cast<std::uint32_t>(out_.region_result.size());
                 out_.region_result.push_back(texel_.results[r]);
@@ -62,7 +52,7 @@ class RegionFinder {
 
     const TexelMap& texel_;
     TexelFeatures& out_;
-    std::vector<std::uint32_t> parent_;
+    UnionFind joined_;
 };
 
 enum class Touch : std::uint8_t { None, Top, Bottom, Left, Right };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formats/fbt.h"
+
 namespace fetexc {
 namespace {
 
@@ -49,8 +51,6 @@ class Quantiser {
     std::int64_t x0_ = 0, y0_ = 0;
 };
 
-PackedPoint pack(LocalPoint p) { return quantise(p.x) | (quantise(p.y) << 16); }
-
 double norm(LocalPoint p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
 /// Lowest degree within tolerance. Cubic → quadratic: the best one by degree reduction, error √3/36·|third difference|.
@@ -95,9 +95,23 @@ std::vector<Joined> join(const PlanarMap& map, const TexelMap& texel, std::span<
 
 } // namespace
 
-std::uint32_t quantise(double v) {
-    const double u = std::floor((v + 0.5) / budget::kOutputStep + 0.5);
-    return static_cast<std::uint32_t>(std::clamp(u, 0.0, 65535.0));
+bool cancel_out(const std::vector<Run>& runs) {
+    const auto end_of = [](const Piece& p) { return p.p[p.degree]; };
+    if (runs.empty()) return true;
+    if (runs.front().pieces.front().p[0] != end_of(runs.back().pieces.back())) return false; // not closed
+    std::vector<Piece> pieces;
+    for (const Run& run : runs) {
+        for (Piece p : run.pieces) {
+            if (end_of(p) < p.p[0]) std::reverse(p.p.begin(), p.p.begin() + p.degree + 1);
+            pieces.push_back(p);
+        }
+    }
+    if (pieces.size() % 2 != 0) return false;
+    std::sort(pieces.begin(), pieces.end());
+    for (std::size_t k = 0; k < pieces.size(); k += 2) {
+        if (pieces[k] != pieces[k + 1]) return false;
+    }
+    return true;
 }
 
 std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps,
@@ -111,7 +125,7 @@ std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::spa
         piece.degree = demote(p, c.degree);
         if (piece.degree < c.degree) ++stats.demoted;
         for (int i = 0; i <= piece.degree; ++i)
-            piece.p[j.forward ? i : piece.degree - i] = pack(p[i]);
+            piece.p[j.forward ? i : piece.degree - i] = fetex::fbt_pack_point(p[i].x, p[i].y);
         if (piece.p[0] == piece.p[piece.degree]) {
             ++stats.vanished;
             continue;

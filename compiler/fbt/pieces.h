@@ -14,23 +14,25 @@ namespace fetexc {
 /// A quantised point, x in the low half.
 using PackedPoint = std::uint32_t;
 
-/// v in texel units → u16 on [-1/2, 3/2), rounded to nearest, clamped.
-std::uint32_t quantise(double v);
-
 struct Piece {
     int degree = 1;
     std::array<PackedPoint, 4> p{};
+    auto operator<=>(const Piece&) const = default;
 };
 
 /// Consecutive pieces of one degree; consecutive pieces share end points.
 struct Run {
     int degree = 1;
     std::vector<Piece> pieces;
+    bool operator==(const Run&) const = default;
 };
 
 struct PieceStats {
     std::uint64_t pieces = 0, demoted = 0, vanished = 0;
 };
+
+/// Every piece is there an even number of times, whichever way it runs: no ray tells inside from outside.
+bool cancel_out(const std::vector<Run>& runs);
 
 /// Joins steps along one arc, lowers degrees within kDemotionTolerance, quantises, drops pieces that vanish. End points
 /// come from the nodes, so chains stay closed and neighbouring texels meet.

@@ -21,13 +21,16 @@ void RowWriter::write_empty(std::uint32_t representative, const RegionSample& sa
     out_.texels.push_back((kFbtKindEmpty << 30) | sample.mask);
 }
 
-void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features) {
+void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features,
+                            std::uint32_t first_vertex) {
+    first_vertex_ = first_vertex;
     samples_.clear();
     written_.clear();
     results_ = features.region_result;
     for (std::uint32_t r = 0; r < features.region_result.size(); ++r)
         samples_.push_back(sampler_.region(texel, features, r));
     const std::vector<ReadyBand> bands = prepare(texel, features);
+    count_slivers(bands);
     // Everything collapsed. Where the collapsed sliver held the corner, the representative sample isn't the texel's
     // own: a lone terminator then carries it.
     if (bands.size() == 1 && bands[0].features.empty() && bands[0].rest == features.corner_region) {
@@ -58,31 +61,50 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
     out_.texels.push_back((kFbtKindBanded << 30) | address);
 }
 
-/// Quantised bands: those without height go, features whose pieces all vanished go (slivers below the output grid,
-/// counted).
+/// The same pieces under the same ray as an earlier feature: what lies inside is taken by that one.
+bool RowWriter::shadowed(const std::vector<ReadyFeature>& before, const std::vector<Run>& runs, std::uint32_t ray) {
+    return std::any_of(before.begin(), before.end(),
+                       [&](const ReadyFeature& f) { return f.ray == ray && f.runs == runs; });
+}
+
+/// Slivers: regions thinner than the output grid, of which no band has anything left.
+void RowWriter::count_slivers(const std::vector<ReadyBand>& bands) {
+    std::vector<bool> left(samples_.size(), false);
+    for (const ReadyBand& b : bands) {
+        left[b.rest] = true;
+        for (const ReadyFeature& f : b.features)
+            left[f.region] = true;
+    }
+    for (std::uint32_t r = 0; r < left.size(); ++r) {
+        if (left[r]) continue;
+        ++out_.stats.slivers_collapsed;
+        out_.collapsed.push_back(first_vertex_ + r);
+    }
+}
+
+/// Quantised bands: those without height go, and so do features whose pieces all vanished or fell on each other or on
+/// those of another feature.
 std::vector<RowWriter::ReadyBand> RowWriter::prepare(const TexelMap& texel, const TexelFeatures& features) {
     const Grid& g = map_.grid();
     std::vector<ReadyBand> ready;
-    std::uint32_t previous = quantise(0);
+    std::uint32_t previous = fbt_quantise(0);
     PieceStats pieces;
     for (const Band& band : features.bands) {
         const bool last = &band == &features.bands.back();
         const double y1 = (band.y1 - static_cast<double>(g.py * texel.j)) / static_cast<double>(g.py);
-        const std::uint32_t y_end = last ? quantise(1) : std::min(quantise(y1), quantise(1));
+        const std::uint32_t y_end = last ? fbt_quantise(1) : std::min(fbt_quantise(y1), fbt_quantise(1));
         if (y_end <= previous) continue;
         ReadyBand b;
         b.y_end = y_end, b.rest = band.regions.back();
         for (std::size_t k = 0; k < band.features.size(); ++k) {
             std::vector<Run> runs = make_runs(map_, texel, band.features[k].steps, pieces);
-            if (runs.empty())
-                ++out_.stats.slivers_collapsed;
-            else
+            if (!cancel_out(runs) && !shadowed(b.features, runs, band.features[k].ray))
                 b.features.push_back({std::move(runs), band.features[k].ray, band.regions[k]});
         }
         previous = y_end;
         ready.push_back(std::move(b));
     }
-    if (ready.back().y_end != quantise(1)) ready.back().y_end = quantise(1); // the last band had no height
+    if (ready.back().y_end != fbt_quantise(1)) ready.back().y_end = fbt_quantise(1); // the last band had no height
     out_.stats.pieces_demoted += pieces.demoted;
     return ready;
 }
@@ -116,7 +138,7 @@ std::uint32_t RowWriter::write_band(const ReadyBand& band) {
 
 void RowWriter::write_entry(std::uint32_t address, std::uint32_t word1, std::uint32_t region, bool last) {
     if ((word1 & kFbtEntryTerminator) == 0) out_.relocate.push_back(static_cast<std::uint32_t>(out_.records.size()));
-    if (last) out_.entries.emplace_back(next_record(), results_[region]);
+    if (last) out_.entries.push_back({next_record(), results_[region], first_vertex_ + region});
     const RegionSample s = last ? samples_[region] : RegionSample{};
     out_.records.insert(out_.records.end(), {address, word1, s.rgba, s.mask});
 }

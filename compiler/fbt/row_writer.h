@@ -14,13 +14,21 @@
 
 namespace fetexc {
 
+/// What an entry stands for. Records and vertices are row-local until the rows are joined.
+struct RegionEntry {
+    std::uint32_t record = 0; ///< last run of a feature, or terminator
+    ResultId result = 0;
+    std::uint32_t vertex = 0; ///< of the reachability graph
+};
+
 struct RowOutput {
-    std::vector<std::uint32_t> texels;                       ///< word 0, word 1 per texel; addresses row-local
-    std::vector<std::uint32_t> records;                      ///< four words each
-    std::vector<std::uint32_t> relocate;                     ///< word indices in records that hold record addresses
-    std::vector<std::pair<std::uint32_t, ResultId>> entries; ///< row-local record → result
+    std::vector<std::uint32_t> texels;   ///< word 0, word 1 per texel; addresses row-local
+    std::vector<std::uint32_t> records;  ///< four words each
+    std::vector<std::uint32_t> relocate; ///< word indices in records that hold record addresses
+    std::vector<RegionEntry> entries;
     FbtStats stats;
     fetex::FbtTraits traits;
+    std::vector<std::uint32_t> collapsed; ///< vertices of which nothing is left in their texel
 };
 
 class RowWriter {
@@ -29,7 +37,9 @@ class RowWriter {
         : map_(map), sampler_(sampler), out_(out) {}
 
     void write_empty(std::uint32_t representative, const RegionSample& sample);
-    void write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features);
+    /// first_vertex: of the texel's regions in the row's reachability graph.
+    void write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features,
+                     std::uint32_t first_vertex);
 
   private:
     /// A band ready to be written: runs per feature that didn't vanish.
@@ -42,6 +52,8 @@ class RowWriter {
         std::vector<ReadyFeature> features;
         std::uint32_t rest = 0;
     };
+    static bool shadowed(const std::vector<ReadyFeature>& before, const std::vector<Run>& runs, std::uint32_t ray);
+    void count_slivers(const std::vector<ReadyBand>& bands);
     std::vector<ReadyBand> prepare(const TexelMap& texel, const TexelFeatures& features);
     std::uint32_t write_band(const ReadyBand& band);
     std::uint32_t write_pieces(const Run& run);
@@ -54,6 +66,7 @@ class RowWriter {
     RowOutput& out_;
     std::vector<RegionSample> samples_;
     std::vector<ResultId> results_;
+    std::uint32_t first_vertex_ = 0;
     std::map<std::vector<std::uint32_t>, std::uint32_t> written_; ///< piece words of this texel → record
 };
 

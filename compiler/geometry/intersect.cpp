@@ -213,8 +213,8 @@ class Filter {
             const double ds = (-f.x * gb.y + f.y * gb.x) / d, dt = (ga.x * f.y - ga.y * f.x) / d;
             s -= ds, t -= dt;
             if (!(std::fabs(s - s0) <= 4 * ws && std::fabs(t - t0) <= 4 * wt)) return false;
-            converged =
-                std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff || (k > 8 && std::fabs(ds) < budget::kNewtonSettled * ws);
+            converged = std::fabs(ds) + std::fabs(dt) <= 64 * budget::kUnitRoundoff ||
+                        (k > 8 && std::fabs(ds) < budget::kNewtonSettled * ws);
         }
         return converged && certify(pair, s, t);
     }

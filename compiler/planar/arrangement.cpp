@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "compiler/diagnostics.h"
 #include "compiler/geometry/intersect.h"
 #include "compiler/planar/box_pairs.h"
+#include "compiler/union_find.h"
 
 namespace fetexc {
 namespace {
@@ -197,23 +197,6 @@ void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
 
 // --- vertices that can't be told apart
 // --------------------------------------------------------------------------------------------
-
-class UnionFind {
-  public:
-    explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t find(std::uint32_t k) {
-        while (parent_[k] != k)
-            k = parent_[k] = parent_[parent_[k]];
-        return k;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Vertices by the unit cells their boxes touch; cells hold few.
 std::vector<std::tuple<double, double, std::uint32_t>> cells_of(const std::vector<Vertex>& vertices) {

@@ -140,8 +140,11 @@ class PlanarMap::Builder {
 
     void emit(std::uint32_t e, const Crossing& p, const Crossing& q) {
         const GridNode &a = map_.nodes_[p.node], &b = map_.nodes_[q.node];
-        if (a.hx == b.hx && is_line(a.hx)) return along_line(e, a, b);
-        if (a.hy == b.hy && is_line(a.hy)) return;
+        if (a.hx == b.hx && is_line(a.hx)) {
+            add_steps(e, a, b, static_cast<std::uint32_t>(a.hx / 2));
+            return add_side_edge(Axis::X, p.node, q.node);
+        }
+        if (a.hy == b.hy && is_line(a.hy)) return add_side_edge(Axis::Y, p.node, q.node);
         const HalfStep column = std::min(a.hx, b.hx) >> 1, row = std::min(a.hy, b.hy) >> 1;
         if (column < 0) left_of_canvas(e, a, b);
         if (column < 0 || row < 0 || column >= static_cast<HalfStep>(grid_.width) ||
@@ -151,9 +154,17 @@ class PlanarMap::Builder {
                            static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column)});
     }
 
-    void along_line(std::uint32_t e, const GridNode& a, const GridNode& b) {
-        add_steps(e, a, b, static_cast<std::uint32_t>(a.hx / 2));
+    /// Only sides between two texels; the canvas border has nothing beyond it.
+    void add_side_edge(Axis across, std::uint32_t n0, std::uint32_t n1) {
+        const GridNode &a = map_.nodes_[n0], &b = map_.nodes_[n1];
+        const HalfStep column = std::min(a.hx, b.hx) >> 1, row = std::min(a.hy, b.hy) >> 1;
+        const bool inner = column >= (across == Axis::X ? 1 : 0) && row >= (across == Axis::Y ? 1 : 0) &&
+                           column < static_cast<HalfStep>(grid_.width) && row < static_cast<HalfStep>(grid_.height);
+        if (!inner) return;
+        map_.side_edges_.push_back(
+            {across, static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column), n0, n1});
     }
+
     void left_of_canvas(std::uint32_t e, const GridNode& a, const GridNode& b) { add_steps(e, a, b, 0); }
 
     /// Rows whose top line the edge crosses, upper end included, lower end not; for the bottom border the other way
@@ -191,6 +202,11 @@ class PlanarMap::Builder {
             piece.sub.n0 = same[piece.sub.n0];
             piece.sub.n1 = same[piece.sub.n1];
         }
+        for (SideEdge& s : map_.side_edges_)
+            s.n0 = same[s.n0], s.n1 = same[s.n1];
+        std::sort(map_.side_edges_.begin(), map_.side_edges_.end(), [](const SideEdge& a, const SideEdge& b) {
+            return std::tie(a.across, a.texel, a.n0, a.n1) < std::tie(b.across, b.texel, b.n0, b.n1);
+        });
     }
 
     static bool joins(const Placed& a, const Placed& b) {
@@ -247,6 +263,18 @@ Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigne
 std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) const {
     const std::size_t k = static_cast<std::size_t>(j) * grid_.width + i;
     return std::span(sub_edges_).subspan(texel_start_[k], texel_start_[k + 1] - texel_start_[k]);
+}
+
+bool PlanarMap::runs_along(Axis across, std::uint32_t i, std::uint32_t j, const LinePosition& from,
+                           const LinePosition& to) const {
+    const std::pair key(across, j * grid_.width + i);
+    auto it = std::lower_bound(side_edges_.begin(), side_edges_.end(), key,
+                               [](const SideEdge& s, const auto& k) { return std::pair(s.across, s.texel) < k; });
+    for (; it != side_edges_.end() && std::pair(it->across, it->texel) == key; ++it) {
+        const LinePosition a = along(nodes_[it->n0], across), b = along(nodes_[it->n1], across);
+        if (std::min(a, b) < to && from < std::max(a, b)) return true;
+    }
+    return false;
 }
 
 Stretch PlanarMap::stretch_of(const SubEdge& s) const {

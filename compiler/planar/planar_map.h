@@ -35,6 +35,20 @@ struct RowStep {
     std::int32_t sign = 1;
 };
 
+/// Part of an edge along the side that two texels share; texel: the one to the right of it or below it, row-major.
+struct SideEdge {
+    Axis across = Axis::X; ///< X: between left and right neighbours
+    std::uint32_t texel = 0;
+    std::uint32_t n0 = 0, n1 = 0;
+};
+
+/// Position along a grid line: half step and coordinate of a node in its direction.
+struct LinePosition {
+    HalfStep h = 0;
+    double v = 0;
+    friend auto operator<=>(const LinePosition&, const LinePosition&) = default;
+};
+
 using Windings = std::vector<Contribution>; ///< ascending shapes, no zeros
 
 void add_winding(Windings& w, std::uint32_t shape, std::int32_t change);
@@ -49,6 +63,11 @@ class PlanarMap {
     [[nodiscard]] std::span<const SubEdge> sub_edges(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] Stretch stretch_of(const SubEdge& s) const;
     [[nodiscard]] std::span<const Contribution> contributions_of(const SubEdge& s) const;
+
+    /// Some edge runs along the side that texel (i,j) shares with its left (across X) or upper (across Y) neighbour,
+    /// somewhere between the two positions.
+    [[nodiscard]] bool runs_along(Axis across, std::uint32_t i, std::uint32_t j, const LinePosition& from,
+                                  const LinePosition& to) const;
 
     /// Runs along row j from left to right; `visit(i, windings)` gets the winding numbers at the texel's corner (X_i +
     /// 0, Y_j + 0), left of everything inside the texel; i = width is the right border, seen from inside. For j =
@@ -85,9 +104,15 @@ class PlanarMap {
     std::vector<GridNode> nodes_;
     std::vector<SubEdge> sub_edges_;
     std::vector<std::uint32_t> texel_start_; ///< CSR over texels, row-major
+    std::vector<SideEdge> side_edges_;       ///< sorted by direction, texel
     std::vector<RowStep> steps_;             ///< sorted by row, line
     std::vector<std::uint32_t> step_start_;  ///< per row, height + 2 entries
 };
+
+/// Where a node lies along a line across the axis (across X: a vertical line).
+inline LinePosition along(const GridNode& n, Axis across) {
+    return across == Axis::X ? LinePosition{n.hy, n.y} : LinePosition{n.hx, n.x};
+}
 
 /// Order of the sweep: down, then right.
 inline bool before(const GridNode& a, const GridNode& b) {

@@ -10,6 +10,7 @@ bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_
                 std::span<const SweepEdge> edges, std::span<const Cut> cuts, TexelFrame frame, SweepResult& out) {
     sub_edges_ = sub_edges, nodes_ = nodes, edges_ = edges, frame_ = frame, out_ = &out;
     out = {};
+    has_cuts_ = !cuts.empty();
     prepare(nodes.size());
     gaps_.push_back(open_gap(new_face(), 0, kNone));
     for (std::uint32_t k = 0; k < nodes.size(); ++k) {
@@ -23,6 +24,7 @@ bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_
         }
     }
     if (!seen_first_slab_) rank_top_line();
+    if (side(TexelSide::Bottom).empty()) side(TexelSide::Bottom).push_back({kNone, gaps_.front().face});
     for (const Gap& g : gaps_)
         close_gap(g, kNone);
     return status_.empty() && cuts.empty();
@@ -62,8 +64,21 @@ bool Sweep::at_node(std::uint32_t k) {
     } else {
         return true;
     }
+    const std::uint32_t left = gaps_[from].face, right = gaps_[from + in_count_[k]].face;
     replace(k, from, in_count_[k], side_of(k));
+    note_node_on_side(k, side_of(k), left, right);
     return true;
+}
+
+/// left, right: the faces beside the node before it was processed.
+void Sweep::note_node_on_side(std::uint32_t k, Side where, std::uint32_t left, std::uint32_t right) {
+    if (has_cuts_) return;
+    if (where == Side::Left) side(TexelSide::Left).push_back({k, gaps_.front().face});
+    if (where == Side::Right) side(TexelSide::Right).push_back({k, gaps_.back().face});
+    if (where != Side::Bottom) return;
+    std::vector<SidePart>& bottom = side(TexelSide::Bottom);
+    if (bottom.empty()) bottom.push_back({kNone, left});
+    bottom.push_back({k, right});
 }
 
 /// A band line: what reaches it ends there, what crosses it starts anew, what leaves it starts in the next band.
@@ -94,13 +109,23 @@ bool Sweep::cut(Cut range) {
 
 /// The band's top line is complete: what crosses it now starts there, and the faces between are known.
 void Sweep::rank_top_line() {
-    if (!seen_first_slab_) out_->first_face = gaps_.front().face;
+    if (!seen_first_slab_) note_first_slab();
     seen_first_slab_ = true;
     for (std::size_t i = 0; i < status_.size(); ++i) {
         Portion& p = out_->portions[portion_[status_[i]]];
         p.rank = static_cast<std::uint32_t>(i);
         p.left = gaps_[i].face, p.right = gaps_[i + 1].face;
     }
+}
+
+void Sweep::note_first_slab() {
+    out_->first_face = gaps_.front().face;
+    if (has_cuts_) return;
+    side(TexelSide::Left).push_back({kNone, gaps_.front().face});
+    side(TexelSide::Right).push_back({kNone, gaps_.back().face});
+    side(TexelSide::Top).push_back({kNone, gaps_.front().face});
+    for (std::size_t i = 0; i < status_.size(); ++i)
+        side(TexelSide::Top).push_back({edges_[status_[i]].top, gaps_[i + 1].face});
 }
 
 void Sweep::collect_outgoing(std::uint32_t k) {

@@ -3,6 +3,7 @@
 /// that meet in nodes only. Level edges count as slightly falling to the right, so no case is special.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,17 +27,27 @@ struct Portion {
     std::uint32_t rank = kNone; ///< starts on the band's top line: position among those, from the left
 };
 
-/// 4-sided sub-region: bounded by two edges (or texel sides, kNone) and two horizontal lines through nodes. Their
-/// adjacency across those lines is the texel's part of the reachability graph.
+/// 4-sided sub-region: bounded by two edges (or texel sides, kNone) and two horizontal lines through nodes. Sub-regions
+/// connected inside the texel have one face.
 struct Trapezoid {
     std::uint32_t left = kNone, right = kNone;           ///< sweep edges
     std::uint32_t top_node = kNone, bottom_node = kNone; ///< kNone: texel border or cut
     std::uint32_t face = 0;
 };
 
+/// A stretch of a texel's side and the face beside it: from a node on to the next part's, the last to the side's end.
+struct SidePart {
+    std::uint32_t from = kNone; ///< sweep node; kNone: the side's first corner
+    std::uint32_t face = 0;
+};
+
+enum class TexelSide : std::uint8_t { Top, Bottom, Left, Right };
+
 struct SweepResult {
     std::vector<Portion> portions; ///< in order of their top
     std::vector<Trapezoid> trapezoids;
+    /// By TexelSide, rightwards or downwards; parts may have no length. Of a sweep without cuts only.
+    std::array<std::vector<SidePart>, 4> sides;
     std::vector<std::uint32_t> faces; ///< face parent links; use face()
     std::uint32_t first_face = 0;     ///< leftmost in the first slab
 
@@ -72,6 +83,9 @@ class Sweep {
     };
     /// Where a node lies in its band: what is connected around it depends on it.
     enum class Side : std::uint8_t { Interior, Top, Bottom, Left, Right };
+    void note_first_slab();
+    void note_node_on_side(std::uint32_t k, Side side, std::uint32_t left, std::uint32_t right);
+    [[nodiscard]] std::vector<SidePart>& side(TexelSide s) { return out_->sides[static_cast<std::size_t>(s)]; }
     void prepare(std::size_t nodes);
     [[nodiscard]] Side side_of(std::uint32_t k) const;
     bool at_node(std::uint32_t k);
@@ -106,7 +120,7 @@ class Sweep {
     std::vector<std::uint32_t> outgoing_;
     std::vector<bool> level_on_cut_; ///< per edge: lies on a band line
     std::uint32_t band_ = 0;
-    bool seen_first_slab_ = false;
+    bool seen_first_slab_ = false, has_cuts_ = false;
 };
 
 } // namespace fetexc

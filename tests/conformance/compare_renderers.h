@@ -43,8 +43,8 @@ inline double color_distance(const fetex::FbtColor& a, const fetex::FbtColor& b)
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
 }
 
-/// Whether the reference colour changes within a hair of the point, in the eight directions. Beyond the texture its border
-/// is repeated, so there the nearest point of the border counts.
+/// Whether the reference colour changes within a hair of the point, in the eight directions. Beyond the texture its
+/// border is repeated, so there the nearest point of the border counts.
 inline bool on_edge(const fetex::FbtTexture& texture, double x, double y) {
     x = std::clamp<double>(x, 0, texture.width);
     y = std::clamp<double>(y, 0, texture.height);

@@ -6,50 +6,12 @@
 #include <functional>
 
 #include "compiler/planar/arrangement.h"
+#include "tests/support/drawn_scene.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/region_check.h"
 
 namespace fetexc::test {
 namespace {
-
-using Path = std::vector<std::vector<LatticePoint>>; ///< control points of consecutive segments
-constexpr std::int64_t kSide = kLatticeSteps;
-
-/// One opaque fill per path, each in a colour of its own, on a square canvas. Coordinates in 1/512 of the canvas.
-Scene scene_of(const std::vector<Path>& paths, FillRule rule = FillRule::EvenOdd) {
-    Scene s;
-    s.extent = {512, 512, kSide, kSide};
-    for (const Path& path : paths) {
-        const auto k = static_cast<std::uint32_t>(s.shapes.size());
-        s.shapes.push_back(
-            {static_cast<std::uint32_t>(s.segments.size()), static_cast<std::uint32_t>(path.size()), rule, kNone});
-        for (const auto& points : path) {
-            Segment segment;
-            segment.degree = static_cast<int>(points.size()) - 1;
-            for (std::size_t i = 0; i < points.size(); ++i)
-                segment.p[i] = {points[i].x * (kSide / 512), points[i].y * (kSide / 512)};
-            s.segments.push_back(segment);
-        }
-        const double v = 0.1 + 0.8 * static_cast<double>(k % 9) / 9;
-        s.paints.emplace_back(SolidPaint{{v, 1 - v, 0.5, 1}});
-        Node node;
-        node.end = k + 1, node.shape = k, node.paint = k;
-        s.nodes.push_back(node);
-    }
-    s.root_end = static_cast<std::uint32_t>(s.nodes.size());
-    return s;
-}
-
-/// Closed with a line back to the start.
-Path closed(std::vector<std::vector<LatticePoint>> segments) {
-    const LatticePoint start = segments.front().front(), end = segments.back().back();
-    if (start != end) segments.push_back({end, start});
-    return segments;
-}
-
-Path rectangle(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
-    return {{{x0, y0}, {x1, y0}}, {{x1, y0}, {x1, y1}}, {{x1, y1}, {x0, y1}}, {{x0, y1}, {x0, y0}}};
-}
 
 PlanarStats arranged(const Scene& scene, std::uint32_t size = 8) {
     PlanarStats stats;
@@ -70,7 +32,7 @@ void expect_right(const Scene& scene, const std::string& name) {
 }
 
 TEST(Arrangement, TwoRectanglesCrossFourTimes) {
-    const PlanarStats s = arranged(scene_of({rectangle(100, 200, 400, 300), rectangle(200, 100, 300, 400)}));
+    const PlanarStats s = arranged(scene_of({box(100, 200, 400, 300), box(200, 100, 300, 400)}));
     EXPECT_EQ(s.crossings, 4u);
     EXPECT_EQ(s.edges, 8u + 2 * 4);
     EXPECT_EQ(s.pairs_exact, 0u);
@@ -78,7 +40,7 @@ TEST(Arrangement, TwoRectanglesCrossFourTimes) {
 
 TEST(Arrangement, SharedBordersBecomeOneEdge) {
     // Neighbours whose common border is cut differently: 200…300 is drawn twice, once in two parts.
-    const Path left = rectangle(100, 200, 200, 300);
+    const Path left = box(100, 200, 200, 300);
     const Path right = {{{200, 200}, {300, 200}},
                         {{300, 200}, {300, 300}},
                         {{300, 300}, {200, 300}},
@@ -108,7 +70,7 @@ TEST(Arrangement, CountsDoNotDependOnPlacement) {
     const std::vector<std::pair<const char*, Map>> maps = {
         {"mirrored",
          [](LatticePoint p) {
-             return LatticePoint{kSide - p.x, p.y};
+             return LatticePoint{kLatticeSteps - p.x, p.y};
          }},
         {"transposed",
          [](LatticePoint p) {
@@ -116,7 +78,7 @@ TEST(Arrangement, CountsDoNotDependOnPlacement) {
          }},
         {"turned",
          [](LatticePoint p) {
-             return LatticePoint{p.y, kSide - p.x};
+             return LatticePoint{p.y, kLatticeSteps - p.x};
          }},
     };
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
@@ -157,13 +119,12 @@ TEST(PlanarMap, HardCasesAgreeWithTheGroundTruth) {
         {"tangent circles and their common tangent",
          {closed({{{256, 100}, {338, 100}, {338, 182}, {256, 182}}, {{256, 182}, {174, 182}, {174, 100}, {256, 100}}}),
           closed({{{256, 182}, {338, 182}, {338, 264}, {256, 264}}, {{256, 264}, {174, 264}, {174, 182}, {256, 182}}}),
-          rectangle(0, 182, 512, 400)}},
+          box(0, 182, 512, 400)}},
         {"along grid lines and corners",
-         {rectangle(0, 0, 512, 512), rectangle(64, 64, 128, 128), rectangle(128, 128, 192, 192),
-          rectangle(128, 64, 192, 128)}},
+         {box(0, 0, 512, 512), box(64, 64, 128, 128), box(128, 128, 192, 192), box(128, 64, 192, 128)}},
         {"diagonals through grid corners",
          {closed({{{0, 0}, {512, 512}}, {{512, 512}, {0, 512}}}), closed({{{512, 0}, {0, 512}}, {{0, 512}, {0, 0}}})}},
-        {"beyond the canvas on all sides", {rectangle(-400, -400, 900, 256), rectangle(-400, 128, 256, 900)}},
+        {"beyond the canvas on all sides", {box(-400, -400, 900, 256), box(-400, 128, 256, 900)}},
     };
     for (const auto& [name, paths] : cases) {
         expect_right(scene_of(paths, FillRule::EvenOdd), name);
@@ -196,7 +157,7 @@ TEST(Fbt, BytesDoNotDependOnThreads) {
 }
 
 TEST(Fbt, SizeIsChecked) {
-    const Scene scene = scene_of({rectangle(100, 100, 200, 200)});
+    const Scene scene = scene_of({box(100, 100, 200, 200)});
     for (const GridSize size : {GridSize{0, 0}, GridSize{16385, 1}, GridSize{1, 16385}}) {
         const Result<FbtBuild> build = build_fbt(scene, {size, 1}, {}, nullptr);
         ASSERT_FALSE(build.ok());

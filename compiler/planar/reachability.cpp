@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/planar/reachability.h"
+
+#include <algorithm>
+
+#include "compiler/union_find.h"
+
+namespace fetexc {
+namespace {
+
+void sort_unique(std::vector<ReachLink>& links, std::size_t from) {
+    const auto begin = links.begin() + static_cast<std::ptrdiff_t>(from);
+    std::sort(begin, links.end());
+    links.erase(std::unique(begin, links.end()), links.end());
+}
+
+} // namespace
+
+/// Parts without length go; parts of one vertex join.
+void ReachabilityRow::append(Parts& parts, const LinePosition& from, std::uint32_t vertex) {
+    if (!parts.empty() && parts.back().from == from) parts.pop_back();
+    if (parts.empty() || parts.back().vertex != vertex) parts.push_back({from, vertex});
+}
+
+/// visit(vertex of a, vertex of b, from, to) for every stretch along which the two face each other.
+template <class Visit>
+void ReachabilityRow::facing(const Parts& a, const Parts& b, const LinePosition& end, const Visit& visit) {
+    std::size_t i = 0, k = 0;
+    while (i < a.size() && k < b.size()) {
+        const LinePosition a_end = i + 1 < a.size() ? a[i + 1].from : end, b_end = k + 1 < b.size() ? b[k + 1].from : end;
+        const LinePosition from = std::max(a[i].from, b[k].from), to = std::min(a_end, b_end);
+        if (from < to) visit(a[i].vertex, b[k].vertex, from, to);
+        if (a_end <= b_end) ++i;
+        if (b_end <= a_end) ++k;
+    }
+}
+
+std::uint32_t ReachabilityRow::new_vertex(ResultId result) {
+    column_.push_back(next_);
+    result_.push_back(result);
+    return static_cast<std::uint32_t>(result_.size() - 1);
+}
+
+void ReachabilityRow::link_to_left(const Parts& left) {
+    const double y = static_cast<double>(map_->grid().py * (static_cast<std::int64_t>(row_) + 1));
+    facing(right_, left, {2 * static_cast<HalfStep>(row_) + 2, y},
+           [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
+               if (result_[a] == result_[b])
+                   links_.push_back({a, b});
+               else if (!conflict_ && !map_->runs_along(Axis::X, next_, row_, from, to))
+                   conflict_ = {next_, row_};
+           });
+}
+
+std::uint32_t ReachabilityRow::add_empty(ResultId result) {
+    if (run_ && result_.back() == result) {
+        ++next_;
+        return static_cast<std::uint32_t>(result_.size() - 1);
+    }
+    const Grid& g = map_->grid();
+    const std::uint32_t v = new_vertex(result);
+    const Parts left{{{2 * static_cast<HalfStep>(row_), static_cast<double>(g.py * row_)}, v}};
+    if (next_ > 0) link_to_left(left);
+    const LinePosition corner{2 * static_cast<HalfStep>(next_), static_cast<double>(g.px * next_)};
+    append(top_, corner, v), append(bottom_, corner, v);
+    right_ = left;
+    run_ = true;
+    ++next_;
+    return v;
+}
+
+std::uint32_t ReachabilityRow::add_texel(const TexelMap& texel, std::span<const std::uint32_t> region_of_face,
+                                         std::span<const ResultId> region_result) {
+    const auto first = static_cast<std::uint32_t>(result_.size());
+    for (const ResultId r : region_result)
+        new_vertex(r);
+    if (next_ > 0) link_to_left(parts(texel, TexelSide::Left, region_of_face, first));
+    for (const auto& [side, line] : {std::pair(TexelSide::Top, &top_), std::pair(TexelSide::Bottom, &bottom_)}) {
+        for (const Part& p : parts(texel, side, region_of_face, first))
+            append(*line, p.from, p.vertex);
+    }
+    right_ = parts(texel, TexelSide::Right, region_of_face, first);
+    run_ = false;
+    ++next_;
+    return first;
+}
+
+ReachabilityRow::Parts ReachabilityRow::parts(const TexelMap& texel, TexelSide side,
+                                              std::span<const std::uint32_t> region_of_face,
+                                              std::uint32_t first) const {
+    const Grid& g = map_->grid();
+    const bool vertical = side == TexelSide::Left || side == TexelSide::Right;
+    const LinePosition corner =
+        vertical ? LinePosition{texel.frame.top, static_cast<double>(g.py * texel.j)}
+                 : LinePosition{texel.frame.left, static_cast<double>(g.px * texel.i)};
+    Parts out;
+    for (const SidePart& p : texel.sweep.sides[static_cast<std::size_t>(side)]) {
+        const LinePosition from =
+            p.from == kNone ? corner : along(map_->node(texel.nodes[p.from]), vertical ? Axis::X : Axis::Y);
+        append(out, from, first + region_of_face[p.face]);
+    }
+    return out;
+}
+
+ReachabilityGraph::ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows) {
+    row_start_.push_back(0);
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+        ReachabilityRow& row = rows[j];
+        if (!conflict_) conflict_ = row.conflict_;
+        const std::uint32_t base = row_start_.back();
+        const std::size_t first_link = links_.size();
+        column_.insert(column_.end(), row.column_.begin(), row.column_.end());
+        result_.insert(result_.end(), row.result_.begin(), row.result_.end());
+        for (const ReachLink& l : row.links_)
+            links_.push_back({base + l.a, base + l.b});
+        row_start_.push_back(static_cast<std::uint32_t>(result_.size()));
+        if (j + 1 < rows.size()) {
+            link_rows(map, row, rows[j + 1]);
+        }
+        sort_unique(links_, first_link);
+    }
+}
+
+void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below) {
+    const Grid& g = map.grid();
+    const std::uint32_t below_base = row_start_.back(), above_base = row_start_[row_start_.size() - 2];
+    const LinePosition end{2 * static_cast<HalfStep>(g.width), static_cast<double>(g.right())};
+    ReachabilityRow::facing(
+        above.bottom_, below.top_, end,
+        [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
+            if (above.result_[a] == below.result_[b]) {
+                links_.push_back({above_base + a, below_base + b});
+                return;
+            }
+            const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
+            for (HalfStep h = from.h >> 1; h <= last && !conflict_; ++h) {
+                const auto i = static_cast<std::uint32_t>(h);
+                if (!map.runs_along(Axis::Y, i, below.row_, from, to)) conflict_ = {i, below.row_};
+            }
+        });
+}
+
+std::uint32_t ReachabilityGraph::first_vertex(std::uint32_t i, std::uint32_t j) const {
+    const auto begin = column_.begin() + row_start_[j], end = column_.begin() + row_start_[j + 1];
+    const auto after = std::upper_bound(begin, end, i); // a vertex whose column is at most i comes before it
+    return static_cast<std::uint32_t>(std::lower_bound(begin, after, *(after - 1)) - column_.begin());
+}
+
+std::uint32_t ReachabilityGraph::row(std::uint32_t vertex) const {
+    return static_cast<std::uint32_t>(std::upper_bound(row_start_.begin(), row_start_.end(), vertex) -
+                                      row_start_.begin() - 1);
+}
+
+std::vector<std::uint32_t> ReachabilityGraph::components() const {
+    UnionFind sets(vertices());
+    for (const ReachLink& l : links_)
+        sets.unite(l.a, l.b);
+    std::vector<std::uint32_t> out(vertices());
+    for (std::uint32_t v = 0; v < out.size(); ++v)
+        out[v] = sets.find(v);
+    return out;
+}
+
+std::uint64_t ReachabilityGraph::component_count() const {
+    const std::vector<std::uint32_t> of = components();
+    std::uint64_t n = 0;
+    for (std::uint32_t v = 0; v < of.size(); ++v)
+        n += of[v] == v ? 1 : 0;
+    return n;
+}
+
+} // namespace fetexc

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Small scenes drawn by hand: opaque fills on a square canvas of 512 × 512.
+#pragma once
+
+#include <vector>
+
+#include "compiler/scene/scene.h"
+
+namespace fetexc::test {
+
+using Path = std::vector<std::vector<LatticePoint>>; ///< control points of consecutive segments, in 1/512 of the canvas
+
+/// One opaque fill per path, each in a colour of its own (nine of them, then again).
+[[nodiscard]] Scene scene_of(const std::vector<Path>& paths, FillRule rule = FillRule::EvenOdd);
+
+/// Closed with a line back to the start.
+[[nodiscard]] Path closed(Path segments);
+
+[[nodiscard]] Path box(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
+
+} // namespace fetexc::test
