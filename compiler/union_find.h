@@ -9,8 +9,8 @@
 
 namespace fetexc {
 
-/// Disjoint sets of 0 … n−1. The representative of a set is its smallest member, so results don't depend on the order of
-/// the calls.
+/// Disjoint sets of 0 … n−1. The representative of a set is its smallest member, so results don't depend on the order
+/// of the calls.
 class UnionFind {
   public:
     explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -27,7 +27,8 @@ template <class Visit>
 void ReachabilityRow::facing(const Parts& a, const Parts& b, const LinePosition& end, const Visit& visit) {
     std::size_t i = 0, k = 0;
     while (i < a.size() && k < b.size()) {
-        const LinePosition a_end = i + 1 < a.size() ? a[i + 1].from : end, b_end = k + 1 < b.size() ? b[k + 1].from : end;
+        const LinePosition a_end = i + 1 < a.size() ? a[i + 1].from : end,
+                           b_end = k + 1 < b.size() ? b[k + 1].from : end;
         const LinePosition from = std::max(a[i].from, b[k].from), to = std::min(a_end, b_end);
         if (from < to) visit(a[i].vertex, b[k].vertex, from, to);
         if (a_end <= b_end) ++i;
@@ -90,9 +91,8 @@ ReachabilityRow::Parts ReachabilityRow::parts(const TexelMap& texel, TexelSide s
                                               std::uint32_t first) const {
     const Grid& g = map_->grid();
     const bool vertical = side == TexelSide::Left || side == TexelSide::Right;
-    const LinePosition corner =
-        vertical ? LinePosition{texel.frame.top, static_cast<double>(g.py * texel.j)}
-                 : LinePosition{texel.frame.left, static_cast<double>(g.px * texel.i)};
+    const LinePosition corner = vertical ? LinePosition{texel.frame.top, static_cast<double>(g.py * texel.j)}
+                                         : LinePosition{texel.frame.left, static_cast<double>(g.px * texel.i)};
     Parts out;
     for (const SidePart& p : texel.sweep.sides[static_cast<std::size_t>(side)]) {
         const LinePosition from =
@@ -125,19 +125,18 @@ void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& a
     const Grid& g = map.grid();
     const std::uint32_t below_base = row_start_.back(), above_base = row_start_[row_start_.size() - 2];
     const LinePosition end{2 * static_cast<HalfStep>(g.width), static_cast<double>(g.right())};
-    ReachabilityRow::facing(
-        above.bottom_, below.top_, end,
-        [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
-            if (above.result_[a] == below.result_[b]) {
-                links_.push_back({above_base + a, below_base + b});
-                return;
-            }
-            const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
-            for (HalfStep h = from.h >> 1; h <= last && !conflict_; ++h) {
-                const auto i = static_cast<std::uint32_t>(h);
-                if (!map.runs_along(Axis::Y, i, below.row_, from, to)) conflict_ = {i, below.row_};
-            }
-        });
+    ReachabilityRow::facing(above.bottom_, below.top_, end,
+                            [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
+                                if (above.result_[a] == below.result_[b]) {
+                                    links_.push_back({above_base + a, below_base + b});
+                                    return;
+                                }
+                                const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
+                                for (HalfStep h = from.h >> 1; h <= last && !conflict_; ++h) {
+                                    const auto i = static_cast<std::uint32_t>(h);
+                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to)) conflict_ = {i, below.row_};
+                                }
+                            });
 }
 
 std::uint32_t ReachabilityGraph::first_vertex(std::uint32_t i, std::uint32_t j) const {

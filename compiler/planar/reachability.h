@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The reachability graph (DESIGN §5.6, FBT §4.4): which parts of the texture can be reached from which without crossing
-/// a visible edge.
+/// The reachability graph (DESIGN §5.6, FBT §4.4): which parts of the texture can be reached from which without
+/// crossing a visible edge.
 ///
 /// The paper's vertices are the 4-sided sub-regions of the trapezoid decomposition. Sub-regions connected inside their
-/// texel are one vertex here, a region of the texel, and so are neighbouring texels of a row without a visible edge that
-/// show one result: nothing is spent on the empty parts of a scene. Links run across the sides between texels, where
-/// two regions with the same visible result face each other along a stretch of positive length.
+/// texel are one vertex here, a region of the texel, and so are neighbouring texels of a row without a visible edge
+/// that show one result: nothing is spent on the empty parts of a scene. Links run across the sides between texels,
+/// where two regions with the same visible result face each other along a stretch of positive length.
 #pragma once
 
 #include <cstdint>
@@ -61,7 +61,7 @@ class ReachabilityRow {
                               std::uint32_t first) const;
 
     const PlanarMap* map_ = nullptr;
-    std::uint32_t row_ = 0, next_ = 0; ///< next texel
+    std::uint32_t row_ = 0, next_ = 0;  ///< next texel
     std::vector<std::uint32_t> column_; ///< per vertex: its first texel
     std::vector<ResultId> result_;
     std::vector<ReachLink> links_;

@@ -96,6 +96,9 @@ inline Comparison compare_frame(const fetex::FbtTexture& texture, fetex::Rendere
     return result;
 }
 
+/// Start of a view that doesn't leave the texture, if it is smaller than that: pixels beyond say nothing new.
+inline double within(double start, double size) { return size >= 1 ? start : std::clamp(start, 0.0, 1 - size); }
+
 /// Frames of side² pixels at a magnification in pixels per texel: one at the origin, then `more` of them around random
 /// texels that hold features (or any, if none does). The renderer has the texture uploaded.
 inline Comparison compare_at(const fetex::FbtTexture& texture, fetex::Renderer& renderer, double pixels_per_texel,
@@ -114,8 +117,8 @@ inline Comparison compare_at(const fetex::FbtTexture& texture, fetex::Renderer& 
         const std::uint32_t texel = texels[random() % texels.size()];
         const double dx = static_cast<double>(random() >> 11) * 0x1p-53,
                      dy = static_cast<double>(random() >> 11) * 0x1p-53;
-        view.x = (texel % texture.width + dx - extent / 2) / texture.width;
-        view.y = (texel / texture.width + dy - extent / 2) / texture.height;
+        view.x = within((texel % texture.width + dx - extent / 2) / texture.width, view.w);
+        view.y = within((texel / texture.width + dy - extent / 2) / texture.height, view.h);
         total.add(compare_frame(texture, renderer, view, side, side));
     }
     return total;

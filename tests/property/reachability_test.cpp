@@ -33,8 +33,8 @@ void expect_parts(const Scene& scene, std::uint64_t parts, const char* name) {
 TEST(Reachability, PartsOfDrawnPictures) {
     expect_parts(scene_of({}), 1, "nothing");
     expect_parts(scene_of({box(100, 100, 200, 200), box(300, 100, 400, 200)}), 3, "two squares");
-    expect_parts(scene_of({box(64, 64, 448, 448), box(128, 128, 384, 384), box(192, 192, 320, 320)}),
-                 4, "rings on grid lines");
+    expect_parts(scene_of({box(64, 64, 448, 448), box(128, 128, 384, 384), box(192, 192, 320, 320)}), 4,
+                 "rings on grid lines");
     expect_parts(scene_of({box(0, 200, 512, 300)}), 3, "a bar from side to side");
     // Corner to corner: what is outside stays in two parts, the squares touch in a point only.
     expect_parts(scene_of({box(0, 0, 256, 256), box(256, 256, 512, 512)}), 4, "two squares corner to corner");

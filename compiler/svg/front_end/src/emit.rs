@@ -185,11 +185,26 @@ impl<'a> Emitter<'a> {
     }
 
     pub fn group_name(&self, g: &Group) -> String {
-        if g.id().is_empty() {
-            self.hint.clone().unwrap_or_else(|| "g".to_string())
-        } else {
-            format!("g#{}", crate::names::shorten(g.id()))
+        if !g.id().is_empty() {
+            return format!("g#{}", crate::names::shorten(g.id()));
         }
+        if let Some(hint) = &self.hint {
+            return hint.clone();
+        }
+        // usvg puts a group around a shape that has a filter, a mask … of its own.
+        match (self.first_shape(g.children()), g.children()) {
+            (Some(name), [Node::Path(_)]) => name,
+            (Some(name), _) => format!("g around {name}"),
+            (None, _) => "g".to_string(),
+        }
+    }
+
+    fn first_shape(&self, nodes: &[Node]) -> Option<String> {
+        nodes.iter().find_map(|n| match n {
+            Node::Group(g) => self.first_shape(g.children()),
+            Node::Path(p) => self.recovery.origin(p.data(), p.id()).map(|o| o.name.clone()),
+            Node::Image(_) | Node::Text(_) => None,
+        })
     }
 
     pub fn blend(&mut self, g: &Group) -> u32 {

@@ -192,9 +192,17 @@ impl Recovery {
             return (from_usvg(path), None);
         };
         self.recovered += 1;
-        let found = known.iter().find(|k| !id.is_empty() && k.origin.id == id).or(known.first());
-        found.map_or_else(|| (from_usvg(path), None), |k| (k.path.clone(), Some(k.origin.clone())))
+        best(known, id).map_or_else(|| (from_usvg(path), None), |k| (k.path.clone(), Some(k.origin.clone())))
     }
+
+    /// Where it came from, only.
+    pub fn origin(&self, path: &tiny_skia_path::Path, id: &str) -> Option<&Origin> {
+        best(self.shapes.get(&fingerprint(path))?, id).map(|k| &k.origin)
+    }
+}
+
+fn best<'a>(known: &'a [Known], id: &str) -> Option<&'a Known> {
+    known.iter().find(|k| !id.is_empty() && k.origin.id == id).or(known.first())
 }
 
 fn origin(node: &Node, lines: &Lines) -> Origin {
