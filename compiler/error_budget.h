@@ -42,6 +42,17 @@ inline constexpr double kFirstWidening = 0x1p-30;
 inline constexpr int kRefineBits = 96;
 inline constexpr int kRefineBitsLimit = 4096;
 
+/// Relative to the size of the curves: a point enclosed no tighter by plain evaluation is narrowed by exact residuals
+/// (geometry/precise). Well-conditioned crossings are at about 2^-44.
+inline constexpr double kPointWidth = 0x1p-40;
+
+/// Bits of the parameters used for that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
+inline constexpr int kPreciseBits = 128;
+
+/// Newton on exact residuals gains about 2^50/condition a step; it stops at steps this short, or after so many.
+inline constexpr double kPreciseStop = 0x1p-110;
+inline constexpr int kPreciseSteps = 12;
+
 /// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below
 /// this. The point lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by
 /// any output.

@@ -268,16 +268,7 @@ class Filter {
         const Interval bs(s - rs, s + rs), bt(t - rt, t + rt);
         const Interval a11 = derivative_over(*a_.curve, Axis::X, bs), a21 = derivative_over(*a_.curve, Axis::Y, bs);
         const Interval a12 = -derivative_over(*b_.curve, Axis::X, bt), a22 = -derivative_over(*b_.curve, Axis::Y, bt);
-        const double det = a11.mid() * a22.mid() - a12.mid() * a21.mid();
-        if (det == 0 || !(det == det)) return false;
-        const Interval y11 = a22.mid() / det, y12 = -a12.mid() / det, y21 = -a21.mid() / det, y22 = a11.mid() / det;
-        const Interval gs = y11 * fx + y12 * fy, gt = y21 * fx + y22 * fy;
-        const Interval e11 = Interval(1) - (y11 * a11 + y12 * a21), e12 = -(y11 * a12 + y12 * a22);
-        const Interval e21 = -(y21 * a11 + y22 * a21), e22 = Interval(1) - (y21 * a12 + y22 * a22);
-        const double ks = gs.magnitude() + e11.magnitude() * rs + e12.magnitude() * rt;
-        const double kt = gt.magnitude() + e21.magnitude() * rs + e22.magnitude() * rt;
-        constexpr double slack = 1 + 16 * budget::kUnitRoundoff; // roundings of the two sums above
-        return ks * slack < rs && kt * slack < rt;
+        return krawczyk_maps_inside(fx, fy, a11, a12, a21, a22, rs, rt);
     }
 
     static bool subdivide(const Pair& pair, std::vector<Pair>& stack) {
@@ -336,6 +327,20 @@ void intersect_lines(const Curve& a, const Curve& b, std::vector<Contact>& found
 }
 
 } // namespace
+
+bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
+                          const Interval& a21, const Interval& a22, double rs, double rt) {
+    const double det = a11.mid() * a22.mid() - a12.mid() * a21.mid();
+    if (det == 0 || !(det == det)) return false;
+    const Interval y11 = a22.mid() / det, y12 = -a12.mid() / det, y21 = -a21.mid() / det, y22 = a11.mid() / det;
+    const Interval gs = y11 * fx + y12 * fy, gt = y21 * fx + y22 * fy;
+    const Interval e11 = Interval(1) - (y11 * a11 + y12 * a21), e12 = -(y11 * a12 + y12 * a22);
+    const Interval e21 = -(y21 * a11 + y22 * a21), e22 = Interval(1) - (y21 * a12 + y22 * a22);
+    const double ks = gs.magnitude() + e11.magnitude() * rs + e12.magnitude() * rt;
+    const double kt = gt.magnitude() + e21.magnitude() * rs + e22.magnitude() * rt;
+    constexpr double slack = 1 + 16 * budget::kUnitRoundoff; // roundings of the two sums above
+    return ks * slack < rs && kt * slack < rt;
+}
 
 PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known,
                                 std::vector<Contact>& found) {

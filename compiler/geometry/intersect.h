@@ -16,6 +16,11 @@ struct Contact {
     Interval s, t;
 };
 
+/// Krawczyk operator for two equations in two unknowns: f encloses the residual in the middle of the box of radii (rs,
+/// rt), a11 … a22 the Jacobian over it. True: the box is mapped strictly into itself and holds exactly one zero.
+bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
+                          const Interval& a21, const Interval& a22, double rs, double rt);
+
 enum class PairOutcome { Certified, Undecided };
 
 /// Appends every common point that is not in `known` (shared end points and end points lying on the other curve, found

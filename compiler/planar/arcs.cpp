@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "compiler/geometry/monotone.h"
+#include "compiler/geometry/precise.h"
 
 namespace fetexc {
 namespace {
@@ -194,8 +195,9 @@ class Preparer {
         return it->second;
     }
 
-    std::uint32_t vertex_on(const Curve& c, const Interval& t) {
-        out_.vertices.push_back({value_over(c, Axis::X, t), value_over(c, Axis::Y, t), false, {}});
+    std::uint32_t vertex_on(const Curve& c, Interval& t) {
+        const PointEnclosure p = extremum_point(c, t);
+        out_.vertices.push_back({p.x, p.y, false, {}});
         return static_cast<std::uint32_t>(out_.vertices.size() - 1);
     }
 
@@ -226,9 +228,10 @@ class Preparer {
         out_.contributions.insert(out_.contributions.end(), sums.begin(), sums.end());
         const Curve& c = out_.curves[curve];
         if (bent) {
-            for (const Interval& t : extrema(c)) {
+            for (Interval t : extrema(c)) {
                 if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue;
-                const End cut{t, vertex_on(c, t)};
+                const std::uint32_t vertex = vertex_on(c, t); // narrows t
+                const End cut{t, vertex};
                 emit_arc(curve, from, cut, first, sums.size());
                 from = cut;
             }

@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "compiler/diagnostics.h"
-#include "compiler/geometry/intersect.h"
+#include "compiler/geometry/precise.h"
 #include "compiler/planar/box_pairs.h"
 #include "compiler/union_find.h"
 
@@ -24,6 +25,7 @@ struct Bounds {
 struct PairContact {
     std::uint32_t a = 0, b = 0;
     Contact at;
+    PointEnclosure point; ///< of a new one
     std::uint32_t vertex = kNone;
 };
 
@@ -100,7 +102,7 @@ class PairTest {
             if (!hit) continue;
             const Contact c = end_is_a ? Contact{t, *hit} : Contact{*hit, t};
             known_.push_back(c);
-            out_.contacts.push_back({ia, ib, c, v});
+            out_.contacts.push_back({ia, ib, c, {}, v});
         }
     }
 
@@ -133,9 +135,10 @@ class PairTest {
                            [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
     }
 
-    void add(std::uint32_t ia, std::uint32_t ib, const Contact& c) {
+    void add(std::uint32_t ia, std::uint32_t ib, Contact c) {
         ++out_.crossings;
-        out_.contacts.push_back({ia, ib, c, kNone});
+        const PointEnclosure p = contact_point(set_.curves[set_.arcs[ia].curve], set_.curves[set_.arcs[ib].curve], c);
+        out_.contacts.push_back({ia, ib, c, p, kNone});
     }
 
     const ArcSet& set_;
@@ -186,12 +189,8 @@ Interval meet(const Interval& a, const Interval& b) {
 void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
     for (PairContact& c : contacts) {
         if (c.vertex != kNone) continue;
-        const Curve &a = set.curves[set.arcs[c.a].curve], &b = set.curves[set.arcs[c.b].curve];
         c.vertex = static_cast<std::uint32_t>(set.vertices.size());
-        set.vertices.push_back({meet(value_over(a, Axis::X, c.at.s), value_over(b, Axis::X, c.at.t)),
-                                meet(value_over(a, Axis::Y, c.at.s), value_over(b, Axis::Y, c.at.t)),
-                                false,
-                                {}});
+        set.vertices.push_back({c.point.x, c.point.y, false, {}});
     }
 }
 
@@ -236,43 +235,60 @@ std::vector<std::uint32_t> identify_vertices(std::vector<Vertex>& vertices) {
     return representative;
 }
 
-/// Cut parameter on an arc.
+/// Parameter of a vertex (representative) on an arc.
 struct Cut {
-    std::uint32_t arc;
     Interval t;
-    std::uint32_t vertex;
+    std::uint32_t vertex = 0;
 };
 
-void emit_edges(Arrangement& out, std::uint32_t arc, std::span<const Cut> cuts, const std::vector<std::uint32_t>& rep) {
+/// The arc's interior vertices in order. It passes each once: contacts that are one vertex have one parameter, where
+/// their enclosures agree.
+void order_cuts(std::vector<Cut>& cuts, std::uint32_t first, std::uint32_t last) {
+    std::erase_if(cuts, [&](const Cut& c) { return c.vertex == first || c.vertex == last; });
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+        return std::tuple(a.vertex, a.t.lo, a.t.hi) < std::tuple(b.vertex, b.t.lo, b.t.hi);
+    });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        if (kept > 0 && cuts[kept - 1].vertex == cuts[i].vertex)
+            cuts[kept - 1].t = meet(cuts[kept - 1].t, cuts[i].t);
+        else
+            cuts[kept++] = cuts[i];
+    }
+    cuts.resize(kept);
+    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+        return std::pair(a.t.mid(), a.vertex) < std::pair(b.t.mid(), b.vertex);
+    });
+}
+
+void emit_edges(Arrangement& out, std::uint32_t arc, std::vector<Cut>& cuts, const std::vector<std::uint32_t>& rep) {
     const Arc& a = out.set.arcs[arc];
     Interval t = a.t0;
     std::uint32_t v = rep[a.v0];
     const std::uint32_t last = rep[a.v1];
+    order_cuts(cuts, v, last);
     for (const Cut& c : cuts) {
-        const std::uint32_t w = rep[c.vertex];
-        if (w == v || w == last) continue;
-        out.edges.push_back({arc, t, c.t, v, w});
-        t = c.t, v = w;
+        out.edges.push_back({arc, t, c.t, v, c.vertex});
+        t = c.t, v = c.vertex;
     }
     if (v != last) out.edges.push_back({arc, t, a.t1, v, last});
 }
 
 void cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, const std::vector<std::uint32_t>& rep) {
-    std::vector<Cut> cuts;
-    cuts.reserve(2 * contacts.size());
+    std::vector<std::uint32_t> start(out.set.arcs.size() + 1, 0); // contacts by arc
+    for (const PairContact& c : contacts)
+        ++start[c.a + 1], ++start[c.b + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<Cut> all(start.back());
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
     for (const PairContact& c : contacts) {
-        cuts.push_back({c.a, c.at.s, c.vertex});
-        cuts.push_back({c.b, c.at.t, c.vertex});
+        all[next[c.a]++] = {c.at.s, rep[c.vertex]};
+        all[next[c.b]++] = {c.at.t, rep[c.vertex]};
     }
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return std::tuple(a.arc, a.t.mid(), a.vertex) < std::tuple(b.arc, b.t.mid(), b.vertex);
-    });
-    std::size_t i = 0;
+    std::vector<Cut> cuts;
     for (std::uint32_t arc = 0; arc < out.set.arcs.size(); ++arc) {
-        const std::size_t begin = i;
-        while (i < cuts.size() && cuts[i].arc == arc)
-            ++i;
-        emit_edges(out, arc, {cuts.data() + begin, i - begin}, rep);
+        cuts.assign(all.begin() + start[arc], all.begin() + start[arc + 1]);
+        emit_edges(out, arc, cuts, rep);
     }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/geometry/precise.h"
+
 namespace fetexc {
 namespace {
 
@@ -116,8 +118,9 @@ class PlanarMap::Builder {
         for (HalfStep h = from + step; h != to && from != to; h += step) {
             if (!is_line(h)) continue;
             const double v = on_line(h, vertical ? grid_.px : grid_.py);
-            const Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
-            const Interval w = value_over(*s.curve, vertical ? Axis::Y : Axis::X, t);
+            Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
+            const PointEnclosure p = level_point(s, axis, v, t);
+            const Interval w = vertical ? p.y : p.x;
             HalfStep hx = h, hy = h;
             if (vertical)
                 hy = clamp_between(half_step(w, grid_.py, grid_.height), a.hy, b.hy);

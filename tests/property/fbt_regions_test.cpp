@@ -37,5 +37,21 @@ TEST(FbtRegions, GroupsClipsMasksAndGradients) {
     }
 }
 
+/// What long runs found, each with the trap it held.
+TEST(FbtRegions, FoundByLongRuns) {
+    const auto mixed = [](std::uint64_t seed) {
+        return seed % 2 != 0 ? random_scene(seed, everything(3 + static_cast<int>(seed % 9)))
+                             : random_scene(seed, opaque_solids(4 + static_cast<int>(seed % 25)));
+    };
+    const std::vector<std::pair<std::uint64_t, GridSize>> cases = {
+        {12544, {39, 26}}, // a zero handle meets lines at a flat angle: crossings known to 1e-4 of a lattice step only
+        {34343, {10, 43}}, // a curve and a line nearly tangent: a crossing enclosed by 40,000 steps
+        {39210, {26, 0}},  // the same near an end
+        {51598, {57, 2}},  // two contacts of one vertex in the wrong order along a curve that rests there
+    };
+    for (const auto& [seed, size] : cases)
+        expect_right_regions(mixed(seed), size, seed);
+}
+
 } // namespace
 } // namespace fetexc::test

@@ -7,9 +7,9 @@
 #include <array>
 #include <vector>
 
-#include "compiler/geometry/intersect.h"
 #include "compiler/geometry/monotone.h"
 #include "compiler/geometry/polynomial.h"
+#include "compiler/geometry/precise.h"
 #include "tests/support/random.h"
 
 namespace fetexc::test {
@@ -217,6 +217,59 @@ TEST(Intersect, MissedCrossingOfCgalsBezierTraitsIsFound) {
         }
     }
     EXPECT_GE(crossings, 1) << "one lies at s = 0.98551658…";
+}
+
+TEST(Precise, FlatCrossingsAreEnclosedTightlyAndRightly) {
+    // A cubic with a zero handle at its end, and lines that meet it near there.
+    const Curve zero_handle =
+        curve({{-327155712, 218103808}, {981467136, 872415232}, {327155712, 872415232}, {327155712, 872415232}});
+    for (const std::int64_t d : {1, 10, 1000, 100000}) {
+        const Curve line = curve({{327155712 + d, 872415232 + 981467136}, {327155712 + d + 7, 872415232 - 981467136}});
+        for (const Stretch& s : stretches(zero_handle)) {
+            const Stretch l{&line, {0, 1}, true, false};
+            std::vector<Contact> found;
+            if (intersect_certified(s, l, {}, found) != PairOutcome::Certified) continue;
+            for (Contact c : found) {
+                const PointEnclosure p = contact_point(zero_handle, line, c);
+                EXPECT_LE(p.width(), budget::kPointWidth * 0x1p31) << d;
+                // The exact crossing, by the resultant.
+                std::vector<ExactHit> exact;
+                intersect_exact(s, l, exact);
+                ASSERT_EQ(exact.size(), 1u) << d;
+                EXPECT_TRUE(exact[0].s.overlaps(c.s) && exact[0].t.overlaps(c.t)) << d;
+                const mpq_class x = exact_value(zero_handle, Axis::X, exact[0].s.mid());
+                EXPECT_LE(abs(x - mpq_class(p.x.mid())), 1e-5) << d;
+            }
+        }
+    }
+}
+
+TEST(Precise, LevelPointsAreNarrowedWhereTheCurveIsFlat) {
+    Random random(11);
+    int narrowed = 0;
+    for (int k = 0; k < 300; ++k) {
+        const Curve c = random_curve(random, 3, 1 << 28);
+        if (c.degree != 3) continue;
+        for (const Stretch& s : stretches(c)) {
+            // Levels ever nearer to the stretch's end, where it may be level.
+            const double from = value_double(c, Axis::Y, s.range.lo), to = value_double(c, Axis::Y, s.range.hi);
+            for (const double w : {0.5, 0x1p-20, 0x1p-28}) {
+                const double v = std::round(to + w * (from - to));
+                if (!(std::min(from, to) + 1 < v && v < std::max(from, to) - 1)) continue;
+                Interval t = parameter_at(c, Axis::Y, s.range, s.y_increasing, v);
+                const Interval before = t;
+                const PointEnclosure p = level_point(s, Axis::Y, v, t);
+                narrowed += t.width() < before.width() / 4 ? 1 : 0;
+                EXPECT_TRUE(before.lo <= t.lo && t.hi <= before.hi);
+                const mpq_class lo = exact_value(c, Axis::Y, t.lo) - mpq_class(v),
+                                hi = exact_value(c, Axis::Y, t.hi) - mpq_class(v);
+                EXPECT_LE(sgn(lo) * sgn(hi), 0);
+                EXPECT_TRUE(p.x.overlaps(value_over(c, Axis::X, before)));
+                EXPECT_EQ(p.y.lo, v);
+            }
+        }
+    }
+    EXPECT_GT(narrowed, 20);
 }
 
 TEST(SameSupport, PartialOverlapIsRecognisedExactly) {
