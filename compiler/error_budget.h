@@ -49,9 +49,15 @@ inline constexpr double kPointWidth = 0x1p-40;
 /// Bits of the parameters used for that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
 inline constexpr int kPreciseBits = 128;
 
-/// Newton on exact residuals gains about 2^50/condition a step; it stops at steps this short, or after so many.
-inline constexpr double kPreciseStop = 0x1p-110;
-inline constexpr int kPreciseSteps = 12;
+/// Newton on exact residuals gains about 2^50/condition a step; it stops at steps of 2^(kPreciseSlack − bits), or after
+/// so many.
+inline constexpr int kPreciseSlack = 18;
+inline constexpr int kPreciseSteps = 16;
+
+/// Coordinates for ordering points that doubles can't tell apart: multiples of 2^-72 steps, from parameters of 192 bits
+/// (error 3·2^44·2^-174 = 2^-128 steps).
+inline constexpr int kFixedBits = 72;
+inline constexpr int kFixedParameterBits = 192;
 
 /// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below
 /// this. The point lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by

@@ -144,7 +144,7 @@ class Builder {
     /// Horizontal lines that the trapezoid decomposition of the paper's §4.4 draws inside the texel.
     [[nodiscard]] std::size_t levels(const TexelMap& texel) const {
         std::size_t n = 0;
-        for (std::uint32_t k : texel.nodes) {
+        for (std::uint32_t k : texel.graph.nodes) {
             if (map_.node(k).hy == texel.frame.top + 1) ++n;
         }
         return n;

@@ -27,7 +27,7 @@ class RegionFinder {
             if (texel_.left_result(p) == texel_.right_result(p))
                 joined_.unite(p.left, p.right);
             else
-                visible.push_back(texel_.edges[p.edge].sub);
+                visible.push_back(texel_.graph.edges[p.edge].sub);
         }
         out_.edges_visible = visible.size(), out_.edges_invisible = s.portions.size() - visible.size();
         number_regions();
@@ -64,9 +64,9 @@ class BandBuilder {
         : map_(map), mapper_(mapper), texel_(texel), out_(out) {}
 
     bool run(const std::vector<std::uint32_t>& visible) {
-        mapper_.collect(texel_.sub_edges, visible, nodes_, edges_);
+        mapper_.collect(texel_.sub_edges, visible, graph_);
         find_cuts();
-        if (!mapper_.sweep().run(texel_.sub_edges, nodes_, edges_, cuts_, texel_.frame, sweep_)) return false;
+        if (!mapper_.sweep().run(texel_.sub_edges, graph_, cuts_, texel_.frame, sweep_)) return false;
         map_regions();
         std::vector<std::vector<std::uint32_t>> by_band(cuts_.size() + 1);
         for (std::uint32_t p = 0; p < sweep_.portions.size(); ++p)
@@ -78,7 +78,7 @@ class BandBuilder {
     }
 
   private:
-    [[nodiscard]] const GridNode& node(std::uint32_t k) const { return map_.node(nodes_[k]); }
+    [[nodiscard]] const GridNode& node(std::uint32_t k) const { return map_.node(graph_.nodes[k]); }
     [[nodiscard]] bool on_texel_side(const GridNode& n) const {
         return n.hx == texel_.frame.left || n.hx == texel_.frame.left + 2 || n.hy == texel_.frame.top ||
                n.hy == texel_.frame.top + 2;
@@ -86,15 +86,15 @@ class BandBuilder {
 
     /// Band lines: the levels of interior nodes where other than two visible edges meet (FBT §3.2).
     void find_cuts() {
-        std::vector<std::uint32_t> degree(nodes_.size(), 0);
-        for (const SweepEdge& e : edges_)
+        std::vector<std::uint32_t> degree(graph_.nodes.size(), 0);
+        for (const SweepEdge& e : graph_.edges)
             ++degree[e.top], ++degree[e.bottom];
-        on_cut_.assign(nodes_.size(), false);
-        for (std::uint32_t k = 0; k < nodes_.size();) {
+        on_cut_.assign(graph_.nodes.size(), false);
+        for (std::uint32_t k = 0; k < graph_.nodes.size();) {
             std::uint32_t last = k;
             bool junction = false;
             const bool border = node(k).hy != texel_.frame.top + 1;
-            for (; last < nodes_.size() && node(last).hy == node(k).hy && node(last).y == node(k).y; ++last) {
+            for (; last < graph_.nodes.size() && graph_.ranks[last].y == graph_.ranks[k].y; ++last) {
                 junction = junction || (!on_texel_side(node(last)) && degree[last] != 2);
             }
             if (junction && !border) {
@@ -109,10 +109,10 @@ class BandBuilder {
     void map_regions() {
         std::vector<const Portion*> first(texel_.sub_edges.size(), nullptr);
         for (const Portion& p : texel_.sweep.portions)
-            first[texel_.edges[p.edge].sub] = &p;
+            first[texel_.graph.edges[p.edge].sub] = &p;
         region_.assign(sweep_.faces.size(), kNone);
         for (const Portion& p : sweep_.portions) {
-            const Portion& original = *first[edges_[p.edge].sub];
+            const Portion& original = *first[graph_.edges[p.edge].sub];
             region_[sweep_.face(p.left)] = out_.region_of_face[original.left];
             region_[sweep_.face(p.right)] = out_.region_of_face[original.right];
         }
@@ -146,8 +146,9 @@ class BandBuilder {
     [[nodiscard]] std::uint32_t region_at_left_side(double y) const {
         for (const Trapezoid& t : texel_.sweep.trapezoids) {
             if (t.left != kNone) continue;
-            const double top = t.top_node == kNone ? side_level(0) : map_.node(texel_.nodes[t.top_node]).y;
-            const double bottom = t.bottom_node == kNone ? side_level(1) : map_.node(texel_.nodes[t.bottom_node]).y;
+            const double top = t.top_node == kNone ? side_level(0) : map_.node(texel_.graph.nodes[t.top_node]).y;
+            const double bottom =
+                t.bottom_node == kNone ? side_level(1) : map_.node(texel_.graph.nodes[t.bottom_node]).y;
             if (top <= y && y <= bottom && top < bottom) return out_.region_of_face[t.face];
         }
         return out_.corner_region;
@@ -159,7 +160,7 @@ class BandBuilder {
     [[nodiscard]] bool open_end(std::uint32_t p, bool top) const {
         const Portion& portion = sweep_.portions[p];
         if (top ? portion.from_cut : portion.to_cut) return true;
-        const std::uint32_t k = top ? edges_[portion.edge].top : edges_[portion.edge].bottom;
+        const std::uint32_t k = top ? graph_.edges[portion.edge].top : graph_.edges[portion.edge].bottom;
         return on_cut_[k] || on_texel_side(node(k));
     }
 
@@ -167,7 +168,7 @@ class BandBuilder {
 
     [[nodiscard]] Touch touch(std::uint32_t p, bool top) const {
         const Portion& portion = sweep_.portions[p];
-        const std::uint32_t k = top ? edges_[portion.edge].top : edges_[portion.edge].bottom;
+        const std::uint32_t k = top ? graph_.edges[portion.edge].top : graph_.edges[portion.edge].bottom;
         if ((top ? portion.from_cut : portion.to_cut) || on_cut_[k]) return top ? Touch::Top : Touch::Bottom;
         const GridNode& n = node(k);
         if (n.hy == texel_.frame.top) return Touch::Top;
@@ -178,12 +179,12 @@ class BandBuilder {
     /// The two portion ends at every interior node of the band.
     void link(const std::vector<std::uint32_t>& portions) {
         used_.resize(sweep_.portions.size(), false);
-        at_node_.assign(nodes_.size(), {kNone, kNone});
+        at_node_.assign(graph_.nodes.size(), {kNone, kNone});
         for (std::uint32_t p : portions) {
             for (const bool top : {true, false}) {
                 if (open_end(p, top)) continue;
-                auto& pair =
-                    at_node_[top ? edges_[sweep_.portions[p].edge].top : edges_[sweep_.portions[p].edge].bottom];
+                auto& pair = at_node_[top ? graph_.edges[sweep_.portions[p].edge].top
+                                          : graph_.edges[sweep_.portions[p].edge].bottom];
                 (pair[0] == kNone ? pair[0] : pair[1]) = p;
             }
         }
@@ -203,12 +204,12 @@ class BandBuilder {
             w.portions.push_back(p);
             w.downward.push_back(down);
             if (open_end(p, !down)) break;
-            const SweepEdge& e = edges_[sweep_.portions[p].edge];
+            const SweepEdge& e = graph_.edges[sweep_.portions[p].edge];
             const std::uint32_t k = down ? e.bottom : e.top;
             const auto& pair = at_node_[k];
             const std::uint32_t q = pair[0] == p ? pair[1] : pair[0];
             if (q == kNone) break;
-            down = edges_[sweep_.portions[q].edge].top == k;
+            down = graph_.edges[sweep_.portions[q].edge].top == k;
             p = q;
         }
         return w;
@@ -218,8 +219,8 @@ class BandBuilder {
         const Walk w = walk(start);
         SimpleFeature f;
         for (std::size_t i = 0; i < w.portions.size(); ++i) {
-            const std::uint32_t sub = edges_[sweep_.portions[w.portions[i]].edge].sub;
-            f.steps.push_back({sub, (map_.sweep_sign(texel_.sub_edges[sub]) > 0) == w.downward[i]});
+            const SweepEdge& edge = graph_.edges[sweep_.portions[w.portions[i]].edge];
+            f.steps.push_back({edge.sub, edge.down == w.downward[i]});
         }
         direct(w, f);
         band.features.push_back(std::move(f));
@@ -253,8 +254,9 @@ class BandBuilder {
         first = last = kNone;
         const auto key = [&](std::uint32_t p) {
             const Portion& portion = sweep_.portions[p];
-            return portion.rank != kNone ? std::pair<std::uint32_t, std::uint32_t>(0, portion.rank)
-                                         : std::pair<std::uint32_t, std::uint32_t>(edges_[portion.edge].top + 1, p);
+            return portion.rank != kNone
+                       ? std::pair<std::uint32_t, std::uint32_t>(0, portion.rank)
+                       : std::pair<std::uint32_t, std::uint32_t>(graph_.edges[portion.edge].top + 1, p);
         };
         for (std::uint32_t p : w.portions) {
             const auto k = key(p);
@@ -340,8 +342,7 @@ class BandBuilder {
     TexelMapper& mapper_;
     const TexelMap& texel_;
     TexelFeatures& out_;
-    std::vector<std::uint32_t> nodes_;
-    std::vector<SweepEdge> edges_;
+    SweepGraph graph_; ///< of the visible sub-edges
     std::vector<Cut> cuts_;
     std::vector<bool> on_cut_, used_;
     SweepResult sweep_;

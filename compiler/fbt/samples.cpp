@@ -75,7 +75,7 @@ namespace {
 
 double x_on(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge, double y, double side) {
     if (edge == kNone) return side;
-    const Stretch s = map.stretch_of(texel.sub_edges[texel.edges[edge].sub]);
+    const Stretch s = map.stretch_of(texel.sub_edges[texel.graph.edges[edge].sub]);
     return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
 }
 
@@ -88,8 +88,8 @@ std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& te
     std::vector<QuadraturePoint> points;
     for (const Trapezoid& t : texel.sweep.trapezoids) {
         if (features.region_of_face[t.face] != r) continue;
-        const double y0 = t.top_node == kNone ? top : map.node(texel.nodes[t.top_node]).y;
-        const double y1 = t.bottom_node == kNone ? bottom : map.node(texel.nodes[t.bottom_node]).y;
+        const double y0 = t.top_node == kNone ? top : map.node(texel.graph.nodes[t.top_node]).y;
+        const double y1 = t.bottom_node == kNone ? bottom : map.node(texel.graph.nodes[t.bottom_node]).y;
         if (!(y1 > y0)) continue;
         for (const double v : {0.25, 0.75}) {
             const double y = y0 + v * (y1 - y0);

@@ -44,14 +44,14 @@ RationalInterval bisect(const Stretch& s, const Polynomial& p, bool increasing, 
     return {lo, hi};
 }
 
-int compare_at(const Stretch& a, const Stretch& b, Axis level_axis, double level) {
+int compare_at(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level) {
     const Polynomial al = power_basis(*a.curve, level_axis), bl = power_basis(*b.curve, level_axis);
     const Polynomial av = power_basis(*a.curve, other(level_axis)), bv = power_basis(*b.curve, other(level_axis));
     const bool a_up = level_axis == Axis::Y ? a.y_increasing : a.x_increasing;
     const bool b_up = level_axis == Axis::Y ? b.y_increasing : b.x_increasing;
     for (int bits = budget::kRefineBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
-        const RationalInterval va = evaluate_over(av, bisect(a, al, a_up, mpq_class(level), bits));
-        const RationalInterval vb = evaluate_over(bv, bisect(b, bl, b_up, mpq_class(level), bits));
+        const RationalInterval va = evaluate_over(av, bisect(a, al, a_up, level, bits));
+        const RationalInterval vb = evaluate_over(bv, bisect(b, bl, b_up, level, bits));
         if (va.hi < vb.lo) return -1;
         if (va.lo > vb.hi) return 1;
     }
@@ -158,7 +158,8 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
     const Polynomial bl = power_basis(*b.curve, level), bv = power_basis(*b.curve, other(level));
     const bool increasing = over_y ? b.y_increasing : b.x_increasing;
     const mpq_class slack(mpz_class(1), mpz_class(1) << budget::kSameBranchBits);
-    for (const auto& [lo, hi] : isolate_roots(r, a.range.lo, a.range.hi, 2 * budget::kRefineBits)) {
+    for (const auto& [lo, hi] :
+         isolate_roots(r, mpq_class(a.range.lo), mpq_class(a.range.hi), 2 * budget::kRefineBits)) {
         const RationalInterval s{lo, hi};
         const RationalInterval at = evaluate_over(over_y ? ay : ax, s), value = evaluate_over(over_y ? ax : ay, s);
         const RationalInterval t{bisect(b, bl, increasing, increasing ? at.lo : at.hi, 2 * budget::kRefineBits).lo,
@@ -171,7 +172,7 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
     return ExactOutcome::Done;
 }
 
-std::optional<ExactHit> double_point(const Curve& c) {
+std::vector<mpz_class> double_point_polynomial(const Curve& c) {
     // (C(s) − C(t))/(s − t) = 0: C3(σ² − π) + C2·σ + C1 = 0 with σ = s + t, π = s·t; crossed with C3 it is linear in σ.
     const Vectors v(c);
     const mpz_class c23 = v.cross(2, 3), c13 = v.cross(1, 3);
@@ -184,12 +185,28 @@ std::optional<ExactHit> double_point(const Curve& c) {
     if (sum * sum - 4 * product <= 0) return {};
     const mpz_class scale = sum.get_den() * product.get_den();
     const mpq_class linear = -sum * scale, constant = product * scale;
-    const auto roots = isolate_roots({constant.get_num(), linear.get_num(), scale}, 0, 1, 2 * budget::kRefineBits);
+    return {constant.get_num(), linear.get_num(), scale};
+}
+
+std::optional<ExactHit> double_point(const Curve& c) {
+    const auto roots = isolate_roots(double_point_polynomial(c), 0, 1, 2 * budget::kRefineBits);
     if (roots.size() != 2) return {};
     return ExactHit{to_double({roots[0].first, roots[0].second}), to_double({roots[1].first, roots[1].second})};
 }
 
-int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y) { return compare_at(a, b, Axis::Y, y); }
-int compare_y_at_x_exact(const Stretch& a, const Stretch& b, double x) { return compare_at(a, b, Axis::X, x); }
+int compare_positions_exact(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level) {
+    return compare_at(a, b, level_axis, level);
+}
+
+int compare_position_exact(const Stretch& a, Axis level_axis, const mpq_class& level, const mpq_class& value) {
+    const Polynomial al = power_basis(*a.curve, level_axis), av = power_basis(*a.curve, other(level_axis));
+    const bool up = level_axis == Axis::Y ? a.y_increasing : a.x_increasing;
+    for (int bits = budget::kRefineBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
+        const RationalInterval v = evaluate_over(av, bisect(a, al, up, level, bits));
+        if (v.hi < value) return -1;
+        if (v.lo > value) return 1;
+    }
+    return 0;
+}
 
 } // namespace fetexc

@@ -3,6 +3,8 @@
 /// Integers and rationals are GMP's, root isolation is CGAL's Algebraic_kernel_d_1. CGAL stays behind this header.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <optional>
 #include <vector>
 
@@ -43,9 +45,13 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
 /// rational; a cusp or an isolated point gives none).
 std::optional<ExactHit> double_point(const Curve& c);
 
-/// Sign of x_a(y) − x_b(y), by bisection in rationals until the two separate; 0 when they don't up to kRefineBitsLimit.
-int compare_x_at_y_exact(const Stretch& a, const Stretch& b, double y);
-/// The same along the other axis: sign of y_a(x) − y_b(x).
-int compare_y_at_x_exact(const Stretch& a, const Stretch& b, double x);
+/// Quadratic whose roots are those two parameters; empty when there is no such point.
+std::vector<mpz_class> double_point_polynomial(const Curve& c);
+
+/// Sign of the difference of the two stretches' positions where both pass the level (along level_axis; positions along
+/// the other), by bisection in rationals until they separate; 0 when they don't up to kRefineBitsLimit.
+int compare_positions_exact(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level);
+/// The same against a value.
+int compare_position_exact(const Stretch& a, Axis level_axis, const mpq_class& level, const mpq_class& value);
 
 } // namespace fetexc

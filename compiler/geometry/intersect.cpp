@@ -237,7 +237,10 @@ class Filter {
 
     bool accept(const Contact& c) {
         for (const Contact& k : known_) {
-            if (k.s.overlaps(c.s) && k.t.overlaps(c.t)) return true; // the same point, known exactly
+            if (!k.s.overlaps(c.s) || !k.t.overlaps(c.t)) continue;
+            const Interval s = hull(k.s, c.s), t = hull(k.t, c.t);
+            undecidable_ = !krawczyk(s.mid(), t.mid(), s.width(), t.width()); // else both are its only zero
+            return !undecidable_;
         }
         for (Contact& h : hits_) {
             if (!h.s.overlaps(c.s) || !h.t.overlaps(c.t)) continue;

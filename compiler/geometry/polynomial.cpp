@@ -38,6 +38,12 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     return trimmed(std::move(out));
 }
 
+Polynomial minus(Polynomial p, const mpz_class& v) {
+    if (p.empty()) p.emplace_back(0);
+    p[0] -= v;
+    return trimmed(std::move(p));
+}
+
 mpz_class to_mpz(std::int64_t v) { return mpz_class(static_cast<long>(v)); }
 
 Polynomial power_basis(const Curve& c, Axis axis) {

@@ -4,6 +4,7 @@
 
 #include <gmpxx.h>
 
+#include <optional>
 #include <vector>
 
 #include "compiler/geometry/curve.h"
@@ -16,6 +17,9 @@ Polynomial trimmed(Polynomial p);
 Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
+
+/// p − v.
+Polynomial minus(Polynomial p, const mpz_class& v);
 
 mpz_class to_mpz(std::int64_t v);
 
@@ -30,6 +34,20 @@ mpq_class evaluate(const Polynomial& p, const mpq_class& t);
 
 /// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's
 /// algebraic kernel.
-std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, double lo, double hi, int bits);
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
+                                                           const mpq_class& hi, int bits);
+
+/// A number known exactly: the only root of the polynomial within [lo, hi].
+struct AlgebraicNumber {
+    Polynomial polynomial;
+    mpq_class lo, hi;
+};
+
+/// −1, 0, +1 for a < b, a = b, a > b, exact (CGAL's algebraic kernel; rational numbers directly). None: an interval
+/// doesn't hold exactly one root.
+std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumber& b);
+
+/// Sign of q at the number, exact. None as above.
+std::optional<int> sign_at(const Polynomial& q, const AlgebraicNumber& a);
 
 } // namespace fetexc

@@ -6,17 +6,16 @@
 namespace fetexc {
 namespace {
 
-constexpr int kBits = budget::kPreciseBits;
-
-/// A parameter t = value·2^-kBits within ±radius.
+/// A parameter t = value·2^-bits within ±radius.
 struct Dyadic {
     mpz_class value;
     double radius = 0;
+    int bits = budget::kPreciseBits;
 };
 
-mpz_class to_dyadic(double t) {
+mpz_class to_dyadic(double t, int bits) {
     mpz_class v;
-    mpz_set_d(v.get_mpz_t(), std::ldexp(t, kBits)); // truncated below 2^-kBits: a starting point only
+    mpz_set_d(v.get_mpz_t(), std::ldexp(t, bits)); // truncated below 2^-bits: a starting point only
     return v;
 }
 
@@ -33,25 +32,27 @@ Interval enclose(const mpz_class& v, int bits) {
 }
 
 Interval range_of(const Dyadic& t) {
-    const Interval mid = enclose(t.value, kBits);
+    const Interval mid = enclose(t.value, t.bits);
     return {std::max(0.0, widen_down(mid.lo - t.radius)), std::min(1.0, widen_up(mid.hi + t.radius))};
 }
 
-/// p(value·2^-kBits)·2^(3·kBits), exact; degree ≤ 3.
-mpz_class evaluate_dyadic(const Polynomial& p, const mpz_class& value) {
+/// p(value·2^-bits)·2^(scale·bits), exact; degree ≤ scale.
+mpz_class evaluate_dyadic(const Polynomial& p, const mpz_class& value, int bits, std::size_t scale) {
     mpz_class sum = 0, term;
     for (std::size_t i = p.size(); i-- > 0;) {
         sum *= value;
-        mpz_mul_2exp(term.get_mpz_t(), p[i].get_mpz_t(), static_cast<mp_bitcnt_t>(kBits) * (p.size() - 1 - i));
+        mpz_mul_2exp(term.get_mpz_t(), p[i].get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * (p.size() - 1 - i));
         sum += term;
     }
-    const std::size_t missing = p.empty() ? 0 : 4 - p.size();
-    mpz_mul_2exp(sum.get_mpz_t(), sum.get_mpz_t(), static_cast<mp_bitcnt_t>(kBits) * missing);
+    const std::size_t missing = p.empty() ? 0 : scale + 1 - p.size();
+    mpz_mul_2exp(sum.get_mpz_t(), sum.get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * missing);
     return sum;
 }
 
+mpz_class evaluate_dyadic(const Polynomial& p, const Dyadic& t) { return evaluate_dyadic(p, t.value, t.bits, 3); }
+
 Interval coordinate_at(const Curve& c, Axis axis, const Dyadic& t) {
-    const Interval mid = enclose(evaluate_dyadic(power_basis(c, axis), t.value), 3 * kBits);
+    const Interval mid = enclose(evaluate_dyadic(power_basis(c, axis), t), 3 * t.bits);
     if (t.radius == 0) return mid;
     const double reach = widen_up(derivative_over(c, axis, range_of(t)).magnitude() * t.radius);
     return {widen_down(mid.lo - reach), widen_up(mid.hi + reach)};
@@ -77,17 +78,34 @@ PointEnclosure meet(const PointEnclosure& a, const PointEnclosure& b) { return {
 // --- one polynomial
 
 /// Narrows a root whose sign change shows at the ends of t. None when it doesn't show there.
-std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t) {
-    mpz_class lo = to_dyadic(t.lo), hi = to_dyadic(t.hi);
-    const int at_lo = sgn(evaluate_dyadic(p, lo)), at_hi = sgn(evaluate_dyadic(p, hi));
-    if (at_lo * at_hi >= 0) return {};
+std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t, int bits) {
+    mpz_class lo = to_dyadic(t.lo, bits), hi = to_dyadic(t.hi, bits);
+    const std::size_t scale = p.empty() ? 0 : p.size() - 1;
+    const int at_lo = sgn(evaluate_dyadic(p, lo, bits, scale)), at_hi = sgn(evaluate_dyadic(p, hi, bits, scale));
+    if (at_lo == 0 && lo <= hi) return Dyadic{lo, 0, bits};
+    if (at_hi == 0) return Dyadic{hi, 0, bits};
+    if (at_lo * at_hi > 0) return {};
     while (hi - lo > 1) {
         const mpz_class mid = (lo + hi) / 2;
-        const int s = sgn(evaluate_dyadic(p, mid));
-        if (s == 0) return Dyadic{mid, 0};
+        const int s = sgn(evaluate_dyadic(p, mid, bits, scale));
+        if (s == 0) return Dyadic{mid, 0, bits};
         (s == at_lo ? lo : hi) = mid;
     }
-    return Dyadic{lo, std::ldexp(1.0, -kBits)};
+    return Dyadic{lo, std::ldexp(1.0, -bits), bits};
+}
+
+RationalRange rational_range(const Dyadic& t) {
+    mpz_class one = 1;
+    mpz_mul_2exp(one.get_mpz_t(), one.get_mpz_t(), static_cast<mp_bitcnt_t>(t.bits));
+    mpq_class mid(t.value, one);
+    mid.canonicalize();
+    const mpq_class radius(t.radius);
+    return {mid - radius, mid + radius};
+}
+
+bool inside(const Dyadic& t, const Interval& range) {
+    const RationalRange r = rational_range(t);
+    return mpq_class(range.lo) <= r.lo && r.hi <= mpq_class(range.hi);
 }
 
 // --- two curves
@@ -95,23 +113,22 @@ std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t) {
 /// Newton on A(s) − B(t) with exact residuals, and the Krawczyk test on what is left.
 class ContactRefiner {
   public:
-    ContactRefiner(const Curve& a, const Curve& b)
-        : a_(a), b_(b), ax_(power_basis(a, Axis::X)), ay_(power_basis(a, Axis::Y)), bx_(power_basis(b, Axis::X)),
-          by_(power_basis(b, Axis::Y)) {}
+    ContactRefiner(const Curve& a, const Curve& b, int bits)
+        : bits_(bits), stop_(std::ldexp(1.0, budget::kPreciseSlack - bits)), a_(a), b_(b), ax_(power_basis(a, Axis::X)),
+          ay_(power_basis(a, Axis::Y)), bx_(power_basis(b, Axis::X)), by_(power_basis(b, Axis::Y)) {}
 
     bool run(const Contact& c) {
-        s_.value = to_dyadic(c.s.mid()), t_.value = to_dyadic(c.t.mid());
+        s_ = {to_dyadic(c.s.mid(), bits_), 0, bits_}, t_ = {to_dyadic(c.t.mid(), bits_), 0, bits_};
         double ds = 0, dt = 0;
         for (int k = 0; k < budget::kPreciseSteps; ++k) {
             if (!step(ds, dt)) return false;
-            const double ms = to_double(s_.value, kBits), mt = to_double(t_.value, kBits);
+            const double ms = to_double(s_.value, bits_), mt = to_double(t_.value, bits_);
             if (!c.s.contains(ms) || !c.t.contains(mt)) return false;
-            if (ds <= budget::kPreciseStop && dt <= budget::kPreciseStop) break;
+            if (ds <= stop_ && dt <= stop_) break;
         }
-        s_.radius = 4 * ds + budget::kPreciseStop, t_.radius = 4 * dt + budget::kPreciseStop;
+        s_.radius = 4 * ds + stop_, t_.radius = 4 * dt + stop_;
         // Another root can't be meant: the contact is alone in its enclosures, which hold this box.
-        const Interval rs = range_of(s_), rt = range_of(t_);
-        return rs.lo >= c.s.lo && rs.hi <= c.s.hi && rt.lo >= c.t.lo && rt.hi <= c.t.hi && certified();
+        return inside(s_, c.s) && inside(t_, c.t) && certified();
     }
 
     [[nodiscard]] const Dyadic& s() const { return s_; }
@@ -122,19 +139,19 @@ class ContactRefiner {
         Interval x, y;
     };
     [[nodiscard]] Residual residual() const {
-        return {enclose(evaluate_dyadic(ax_, s_.value) - evaluate_dyadic(bx_, t_.value), 3 * kBits),
-                enclose(evaluate_dyadic(ay_, s_.value) - evaluate_dyadic(by_, t_.value), 3 * kBits)};
+        return {enclose(evaluate_dyadic(ax_, s_) - evaluate_dyadic(bx_, t_), 3 * bits_),
+                enclose(evaluate_dyadic(ay_, s_) - evaluate_dyadic(by_, t_), 3 * bits_)};
     }
 
     bool step(double& ds, double& dt) {
-        const double s = to_double(s_.value, kBits), t = to_double(t_.value, kBits);
+        const double s = to_double(s_.value, bits_), t = to_double(t_.value, bits_);
         const double gax = derivative_double(a_, Axis::X, s), gay = derivative_double(a_, Axis::Y, s),
                      gbx = derivative_double(b_, Axis::X, t), gby = derivative_double(b_, Axis::Y, t);
         const double d = gay * gbx - gax * gby;
         if (d == 0) return false;
         const Residual f = residual();
         const double es = (-f.x.mid() * gby + f.y.mid() * gbx) / d, et = (gax * f.y.mid() - gay * f.x.mid()) / d;
-        s_.value -= to_dyadic(es), t_.value -= to_dyadic(et);
+        s_.value -= to_dyadic(es, bits_), t_.value -= to_dyadic(et, bits_);
         ds = std::fabs(es), dt = std::fabs(et);
         return true;
     }
@@ -147,17 +164,58 @@ class ContactRefiner {
         return krawczyk_maps_inside(f.x, f.y, a11, a12, a21, a22, s_.radius, t_.radius);
     }
 
+    int bits_;
+    double stop_;
     const Curve &a_, &b_;
     Polynomial ax_, ay_, bx_, by_;
     Dyadic s_, t_;
 };
+
+Polynomial derivative(const Polynomial& p) {
+    Polynomial out;
+    for (std::size_t i = 1; i < p.size(); ++i)
+        out.push_back(p[i] * static_cast<unsigned long>(i));
+    return out;
+}
+
+/// None also for extrema along both axes, too near to each other to be told apart.
+std::optional<Dyadic> narrow_extremum(const Curve& c, const Interval& t, int bits) {
+    std::optional<Dyadic> root;
+    for (const Axis axis : {Axis::X, Axis::Y}) {
+        const std::optional<Dyadic> found = narrow_root(derivative(power_basis(c, axis)), t, bits);
+        if (found && root) return {};
+        if (found) root = found;
+    }
+    return root;
+}
+
+Fixed to_fixed(std::int64_t v) { return static_cast<Fixed>(v) << budget::kFixedBits; }
+
+/// Nearest multiple of 2^-kFixedBits.
+Fixed to_fixed(const mpz_class& v, int bits) {
+    mpz_class scaled = v;
+    const auto shift = static_cast<mp_bitcnt_t>(bits - budget::kFixedBits);
+    mpz_class half = 1;
+    mpz_mul_2exp(half.get_mpz_t(), half.get_mpz_t(), shift - 1);
+    scaled += half;
+    mpz_fdiv_q_2exp(scaled.get_mpz_t(), scaled.get_mpz_t(), shift);
+    mpz_class low, high;
+    mpz_fdiv_r_2exp(low.get_mpz_t(), scaled.get_mpz_t(), 64);
+    mpz_fdiv_q_2exp(high.get_mpz_t(), scaled.get_mpz_t(), 64);
+    return (static_cast<Fixed>(high.get_si()) << 64) | static_cast<Fixed>(low.get_ui());
+}
+
+FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
+    return {to_fixed(evaluate_dyadic(power_basis(c, Axis::X), t), 3 * t.bits),
+            to_fixed(evaluate_dyadic(power_basis(c, Axis::Y), t), 3 * t.bits)};
+}
 
 } // namespace
 
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
     const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
     if (plain.width() <= budget::kPointWidth * std::max(size_of(a), size_of(b))) return plain;
-    ContactRefiner refiner(a, b);
+    ContactRefiner refiner(a, b, budget::kPreciseBits);
     if (!refiner.run(c)) return plain;
     c = {range_of(refiner.s()), range_of(refiner.t())};
     return meet(point_at(a, refiner.s()), point_at(b, refiner.t()));
@@ -167,10 +225,8 @@ PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {
     const Curve& c = *s.curve;
     PointEnclosure p = plain_point(c, t);
     if (p.width() > budget::kPointWidth * size_of(c)) {
-        Polynomial q = power_basis(c, axis);
-        if (q.empty()) q.emplace_back(0);
-        q[0] -= mpz_class(v);
-        if (const std::optional<Dyadic> root = narrow_root(trimmed(q), t)) {
+        const Polynomial q = minus(power_basis(c, axis), mpz_class(v));
+        if (const std::optional<Dyadic> root = narrow_root(q, t, budget::kPreciseBits)) {
             t = range_of(*root);
             p = point_at(c, *root);
         }
@@ -182,19 +238,46 @@ PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {
 PointEnclosure extremum_point(const Curve& c, Interval& t) {
     const PointEnclosure plain = plain_point(c, t);
     if (plain.width() <= budget::kPointWidth * size_of(c)) return plain;
-    std::optional<Dyadic> root;
-    for (const Axis axis : {Axis::X, Axis::Y}) {
-        const Polynomial p = power_basis(c, axis);
-        Polynomial derivative;
-        for (std::size_t i = 1; i < p.size(); ++i)
-            derivative.push_back(p[i] * static_cast<unsigned long>(i));
-        const std::optional<Dyadic> found = narrow_root(derivative, t);
-        if (found && root) return plain; // extrema along both axes, too near to each other to be told apart
-        if (found) root = found;
-    }
+    const std::optional<Dyadic> root = narrow_extremum(c, t, budget::kPreciseBits);
     if (!root) return plain;
     t = range_of(*root);
     return point_at(c, *root);
+}
+
+// --- fixed point
+
+std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, const Contact& c) {
+    ContactRefiner refiner(a, b, budget::kFixedParameterBits);
+    if (!refiner.run(c)) return {};
+    return NarrowContact{rational_range(refiner.s()), rational_range(refiner.t())};
+}
+
+FixedPoint fixed(IntPoint p) { return {to_fixed(p.x), to_fixed(p.y)}; }
+
+std::optional<FixedPoint> fixed_contact(const Curve& a, const Curve& b, const Contact& c) {
+    ContactRefiner refiner(a, b, budget::kFixedParameterBits);
+    if (refiner.run(c)) return fixed_at(a, refiner.s());
+    // Tangent: no certificate can exist. The root of the resultant, which CGAL isolates, is the parameter on a.
+    const auto roots =
+        isolate_roots(eliminate(a, b), mpq_class(c.s.lo), mpq_class(c.s.hi), budget::kFixedParameterBits);
+    if (roots.size() != 1) return {};
+    mpq_class scaled = roots[0].first;
+    mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), budget::kFixedParameterBits);
+    return fixed_at(a, {mpz_class(scaled.get_num() / scaled.get_den()), 0, budget::kFixedParameterBits});
+}
+
+std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t) {
+    const Polynomial p = minus(power_basis(c, axis), to_mpz(v));
+    const std::optional<Dyadic> root = narrow_root(p, t, budget::kFixedParameterBits);
+    if (!root) return {};
+    FixedPoint point = fixed_at(c, *root);
+    (axis == Axis::X ? point.x : point.y) = to_fixed(v);
+    return point;
+}
+
+std::optional<FixedPoint> fixed_extremum(const Curve& c, const Interval& t) {
+    const std::optional<Dyadic> root = narrow_extremum(c, t, budget::kFixedParameterBits);
+    return root ? std::optional(fixed_at(c, *root)) : std::nullopt;
 }
 
 } // namespace fetexc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Points on curves to nearly the resolution of double, where plain evaluation can't give it: exact integer evaluation at
-/// dyadic parameters of budget::kPreciseBits bits. For what is badly conditioned (flat crossings, extrema near
+/// Points on curves to nearly the resolution of double, where plain evaluation can't give it: exact integer evaluation
+/// at dyadic parameters of budget::kPreciseBits bits. For what is badly conditioned (flat crossings, extrema near
 /// inflections, zero handles); microseconds a call.
 #pragma once
 
@@ -26,5 +26,27 @@ PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t);
 /// The point of an extremum along one axis; t: an enclosure whose ends show the sign change of the derivative,
 /// narrowed where needed.
 PointEnclosure extremum_point(const Curve& c, Interval& t);
+
+/// Coordinate in units of 2^-kFixedBits: planar coordinates (below 2^44) to far below anything doubles tell apart.
+using Fixed = __int128;
+struct FixedPoint {
+    Fixed x = 0, y = 0;
+};
+
+/// Enclosures of both parameters of a certified contact, about 2^-170 wide. None when it is tangent.
+struct RationalRange {
+    mpq_class lo, hi;
+};
+struct NarrowContact {
+    RationalRange s, t;
+};
+std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, const Contact& c);
+
+/// Rounded to the nearest multiple of 2^-kFixedBits, after errors below it. None when the enclosure doesn't tell which
+/// point is meant.
+FixedPoint fixed(IntPoint p);
+std::optional<FixedPoint> fixed_contact(const Curve& a, const Curve& b, const Contact& c);
+std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t);
+std::optional<FixedPoint> fixed_extremum(const Curve& c, const Interval& t);
 
 } // namespace fetexc

@@ -16,31 +16,70 @@ using Kernel = CGAL::Algebraic_kernel_d_1<Integer>;
 
 mpq_class to_mpq(const Kernel::Bound& b) { return mpq_class(b.get_mp()); }
 
-Kernel::Bound to_bound(double v) { return Kernel::Bound(v); }
+Kernel::Bound to_bound(const mpq_class& v) { return Kernel::Bound(v.get_mpq_t()); }
 
-} // namespace
+// CORE's memory pools and the kernel's caches are not thread-safe; calls are rare.
+std::mutex mutex;
 
-std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, double lo, double hi, int bits) {
-    std::vector<std::pair<mpq_class, mpq_class>> out;
-    if (p.size() < 2) return out;
-    // CORE's memory pools and the kernel's caches are not thread-safe; calls are rare.
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
+Kernel::Polynomial_1 to_polynomial(const Polynomial& p) {
     std::vector<Integer> coefficients;
     coefficients.reserve(p.size());
     for (const mpz_class& c : p)
         coefficients.emplace_back(Integer(c.get_mpz_t()));
-    Kernel kernel;
-    const Kernel::Polynomial_1 square_free =
-        kernel.make_square_free_1_object()(Kernel::Polynomial_1(coefficients.begin(), coefficients.end()));
+    return {coefficients.begin(), coefficients.end()};
+}
+
+std::vector<Kernel::Algebraic_real_1> solve(const Kernel& kernel, const Polynomial& p, const mpq_class& lo,
+                                            const mpq_class& hi) {
+    const Kernel::Polynomial_1 square_free = kernel.make_square_free_1_object()(to_polynomial(p));
     std::vector<Kernel::Algebraic_real_1> roots;
     kernel.solve_1_object()(square_free, true, to_bound(lo), to_bound(hi), std::back_inserter(roots));
+    return roots;
+}
+
+/// The root of a linear polynomial.
+mpq_class rational_root(const Polynomial& p) {
+    mpq_class r(-p[0], p[1]);
+    r.canonicalize();
+    return r;
+}
+
+} // namespace
+
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
+                                                           const mpq_class& hi, int bits) {
+    std::vector<std::pair<mpq_class, mpq_class>> out;
+    if (p.size() < 2) return out;
+    const std::lock_guard lock(mutex);
+    const Kernel kernel;
     const auto approximate = kernel.approximate_absolute_1_object();
-    for (const auto& root : roots) {
+    for (const auto& root : solve(kernel, p, lo, hi)) {
         const auto bounds = approximate(root, bits);
         out.emplace_back(to_mpq(bounds.first), to_mpq(bounds.second));
     }
     return out;
+}
+
+std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumber& b) {
+    if (a.polynomial.size() == 2 && b.polynomial.size() == 2)
+        return cmp(rational_root(a.polynomial), rational_root(b.polynomial));
+    if (a.polynomial.size() < 2 || b.polynomial.size() < 2) return {};
+    const std::lock_guard lock(mutex);
+    const Kernel kernel;
+    const auto ra = solve(kernel, a.polynomial, a.lo, a.hi), rb = solve(kernel, b.polynomial, b.lo, b.hi);
+    if (ra.size() != 1 || rb.size() != 1) return {};
+    return static_cast<int>(kernel.compare_1_object()(ra[0], rb[0]));
+}
+
+std::optional<int> sign_at(const Polynomial& q, const AlgebraicNumber& a) {
+    if (q.empty()) return 0;
+    if (a.polynomial.size() == 2) return sgn(evaluate(q, rational_root(a.polynomial)));
+    if (a.polynomial.size() < 2) return {};
+    const std::lock_guard lock(mutex);
+    const Kernel kernel;
+    const auto roots = solve(kernel, a.polynomial, a.lo, a.hi);
+    if (roots.size() != 1) return {};
+    return static_cast<int>(kernel.sign_at_1_object()(to_polynomial(q), roots[0]));
 }
 
 } // namespace fetexc

@@ -8,6 +8,7 @@
 
 #include "compiler/geometry/monotone.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/planar/exact_points.h"
 
 namespace fetexc {
 namespace {
@@ -191,13 +192,20 @@ class Preparer {
 
     std::uint32_t vertex_at(IntPoint p) {
         const auto [it, fresh] = ends_.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
-        if (fresh) out_.vertices.push_back({static_cast<double>(p.x), static_cast<double>(p.y), true, p});
+        if (fresh) {
+            Vertex v;
+            v.x = static_cast<double>(p.x), v.y = static_cast<double>(p.y);
+            v.integral = true, v.point = p;
+            out_.vertices.push_back(v);
+        }
         return it->second;
     }
 
-    std::uint32_t vertex_on(const Curve& c, Interval& t) {
-        const PointEnclosure p = extremum_point(c, t);
-        out_.vertices.push_back({p.x, p.y, false, {}});
+    std::uint32_t vertex_on(std::uint32_t curve, Interval& t) {
+        const PointEnclosure p = extremum_point(out_.curves[curve], t);
+        Vertex v;
+        v.x = p.x, v.y = p.y, v.a = curve, v.s = t;
+        out_.vertices.push_back(v);
         return static_cast<std::uint32_t>(out_.vertices.size() - 1);
     }
 
@@ -230,7 +238,7 @@ class Preparer {
         if (bent) {
             for (Interval t : extrema(c)) {
                 if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue;
-                const std::uint32_t vertex = vertex_on(c, t); // narrows t
+                const std::uint32_t vertex = vertex_on(curve, t); // narrows t
                 const End cut{t, vertex};
                 emit_arc(curve, from, cut, first, sums.size());
                 from = cut;
@@ -243,7 +251,10 @@ class Preparer {
         const Vertex &va = out_.vertices[a.vertex], &vb = out_.vertices[b.vertex];
         Arc arc;
         arc.curve = curve, arc.t0 = a.t, arc.t1 = b.t, arc.v0 = a.vertex, arc.v1 = b.vertex;
-        arc.x_increasing = va.x.mid() <= vb.x.mid(), arc.y_increasing = va.y.mid() <= vb.y.mid();
+        arc.x_increasing = compare_coordinates(out_, va, vb, Axis::X) <= 0;
+        // A level arc counts as falling slightly to the right.
+        const int y = compare_coordinates(out_, va, vb, Axis::Y);
+        arc.y_increasing = y == 0 ? arc.x_increasing : y < 0;
         arc.first_contribution = first, arc.contributions = static_cast<std::uint32_t>(count);
         out_.arcs.push_back(arc);
     }

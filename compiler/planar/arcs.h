@@ -20,11 +20,14 @@ struct Contribution {
     std::int32_t winding = 0;
 };
 
-/// A point of the planar map, in planar space. Integral points are exact; others are enclosed.
+/// A point of the planar map, in planar space. Integral points are exact; others are enclosed, and defined by what
+/// meets there, so that any question about them can be answered exactly (planar/exact_points.h).
 struct Vertex {
     Interval x, y;
     bool integral = false;
     IntPoint point;
+    std::uint32_t a = kNone, b = kNone; ///< not integral: curves that cross there; b = kNone: an extremum of a
+    Interval s, t;                      ///< its parameters on a and b
 };
 
 /// x- and y-monotone stretch between two vertices.

@@ -11,8 +11,9 @@
 
 #include "compiler/diagnostics.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/planar/arc_order.h"
 #include "compiler/planar/box_pairs.h"
-#include "compiler/union_find.h"
+#include "compiler/planar/exact_points.h"
 
 namespace fetexc {
 namespace {
@@ -33,7 +34,8 @@ struct PairContact {
 struct ChunkResult {
     std::vector<PairContact> contacts;
     std::vector<SharedSupport> shared;
-    std::uint64_t certified = 0, exact = 0, crossings = 0;
+    std::uint64_t certified = 0, exact = 0, crossings = 0, exact_comparisons = 0;
+    bool decided = true;
 };
 
 Bounds bounds_of(const ArcSet& set, const Arc& a) {
@@ -43,6 +45,13 @@ Bounds bounds_of(const ArcSet& set, const Arc& a) {
 
 bool within(const Interval& a, const Interval& b) { return b.lo <= a.lo && a.hi <= b.hi; }
 bool flat(const Interval& v) { return v.lo == v.hi; }
+
+Vertex crossing_vertex(const Arc& a, const Arc& b, const Contact& c, const PointEnclosure& p) {
+    Vertex v;
+    v.x = p.x, v.y = p.y;
+    v.a = a.curve, v.b = b.curve, v.s = c.s, v.t = c.t;
+    return v;
+}
 
 class PairTest {
   public:
@@ -114,10 +123,8 @@ class PairTest {
         }
         std::vector<ExactHit> hits;
         intersect_exact(sa, sb, hits);
-        for (const ExactHit& h : hits) {
-            const Contact c{h.s, h.t};
-            if (!is_known(c)) found_.push_back(c);
-        }
+        for (const ExactHit& h : hits)
+            found_.push_back({h.s, h.t}); // those that are known turn out to be one vertex with it
     }
 
     /// Two stretches of one cubic: its double point is the only one they can share, beside an end.
@@ -127,18 +134,30 @@ class PairTest {
         const bool a_first = a.t0.mid() < b.t0.mid();
         const Contact c = a_first ? Contact{p->s, p->t} : Contact{p->t, p->s};
         const bool inside = c.s.overlaps({a.t0.lo, a.t1.hi}) && c.t.overlaps({b.t0.lo, b.t1.hi});
-        if (inside && !is_known(c)) found_.push_back(c);
-    }
-
-    [[nodiscard]] bool is_known(const Contact& c) const {
-        return std::any_of(known_.begin(), known_.end(),
-                           [&](const Contact& k) { return k.s.overlaps(c.s) && k.t.overlaps(c.t); });
+        if (inside) found_.push_back(c);
     }
 
     void add(std::uint32_t ia, std::uint32_t ib, Contact c) {
+        const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
+        const PointEnclosure p = contact_point(set_.curves[a.curve], set_.curves[b.curve], c);
+        const Vertex crossing = crossing_vertex(a, b, c, p);
+        if (beyond_an_end(a, crossing, c.s) || beyond_an_end(b, crossing, c.t)) return;
         ++out_.crossings;
-        const PointEnclosure p = contact_point(set_.curves[set_.arcs[ia].curve], set_.curves[set_.arcs[ib].curve], c);
         out_.contacts.push_back({ia, ib, c, p, kNone});
+    }
+
+    /// A contact is enclosed in parameters of the whole curves; the arc may end before it.
+    bool beyond_an_end(const Arc& arc, const Vertex& crossing, const Interval& t) {
+        return (t.overlaps(arc.t0) &&
+                compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v0], arc.t0, out_) < 0) ||
+               (t.overlaps(arc.t1) && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v1], arc.t1, out_) > 0);
+    }
+
+    static int compare_on_arc(const ArcSet& set, const Arc& arc, const Vertex& p, const Interval& tp, const Vertex& q,
+                              const Interval& tq, ChunkResult& out) {
+        const std::optional<int> c = compare_along(set, arc, p, tp, q, tq, out.exact_comparisons);
+        out.decided = out.decided && c.has_value();
+        return c.value_or(0);
     }
 
     const ArcSet& set_;
@@ -176,13 +195,9 @@ ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds,
         all.contacts.insert(all.contacts.end(), r.contacts.begin(), r.contacts.end());
         all.shared.insert(all.shared.end(), r.shared.begin(), r.shared.end());
         all.certified += r.certified, all.exact += r.exact, all.crossings += r.crossings;
+        all.exact_comparisons += r.exact_comparisons, all.decided = all.decided && r.decided;
     }
     return all;
-}
-
-Interval meet(const Interval& a, const Interval& b) {
-    const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
-    return m.lo <= m.hi ? m : hull(a, b);
 }
 
 /// One vertex for every crossing.
@@ -190,106 +205,75 @@ void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
     for (PairContact& c : contacts) {
         if (c.vertex != kNone) continue;
         c.vertex = static_cast<std::uint32_t>(set.vertices.size());
-        set.vertices.push_back({c.point.x, c.point.y, false, {}});
+        set.vertices.push_back(crossing_vertex(set.arcs[c.a], set.arcs[c.b], c.at, c.point));
     }
 }
 
-// --- vertices that can't be told apart
-// --------------------------------------------------------------------------------------------
+// --- edges
+// ------------------------------------------------------------------------------------------------------------------------
 
-/// Vertices by the unit cells their boxes touch; cells hold few.
-std::vector<std::tuple<double, double, std::uint32_t>> cells_of(const std::vector<Vertex>& vertices) {
-    std::vector<std::tuple<double, double, std::uint32_t>> cells;
-    cells.reserve(vertices.size());
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        const Vertex& p = vertices[v];
-        for (double x = std::floor(p.x.lo); x <= p.x.hi; x += 1) {
-            for (double y = std::floor(p.y.lo); y <= p.y.hi; y += 1)
-                cells.emplace_back(x, y, v);
+/// Vertices on each arc: its ends, and its contacts.
+class ArcVertices {
+  public:
+    ArcVertices(const ArcSet& set, const std::vector<PairContact>& contacts)
+        : set_(set), start_(set.arcs.size() + 1, 0) {
+        for (const PairContact& c : contacts)
+            ++start_[c.a + 1], ++start_[c.b + 1];
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        on_arc_.resize(start_.back());
+        std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+        for (const PairContact& c : contacts) {
+            on_arc_[next[c.a]++] = {c.vertex, c.at.s};
+            on_arc_[next[c.b]++] = {c.vertex, c.at.t};
         }
     }
-    std::sort(cells.begin(), cells.end());
-    return cells;
-}
 
-/// Representative of each vertex: itself, or the vertex its enclosure overlaps. Integral vertices win.
-std::vector<std::uint32_t> identify_vertices(std::vector<Vertex>& vertices) {
-    UnionFind same(vertices.size());
-    const auto cells = cells_of(vertices);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const auto& [x, y, v] = cells[i];
-        for (std::size_t k = i + 1; k < cells.size() && std::get<0>(cells[k]) == x && std::get<1>(cells[k]) == y; ++k) {
-            const Vertex &a = vertices[v], &b = vertices[std::get<2>(cells[k])];
-            if (a.x.overlaps(b.x) && a.y.overlaps(b.y)) same.unite(v, std::get<2>(cells[k]));
-        }
+    void of(std::uint32_t arc, std::vector<OnArc>& out) const {
+        const Arc& a = set_.arcs[arc];
+        out.assign(on_arc_.begin() + start_[arc], on_arc_.begin() + start_[arc + 1]);
+        out.push_back({a.v0, a.t0});
+        out.push_back({a.v1, a.t1});
     }
-    std::vector<std::uint32_t> representative(vertices.size());
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        const std::uint32_t r = representative[v] = same.find(v);
-        if (r == v || vertices[r].integral) continue;
-        if (vertices[v].integral)
-            vertices[r] = vertices[v];
-        else
-            vertices[r] = {meet(vertices[r].x, vertices[v].x), meet(vertices[r].y, vertices[v].y), false, {}};
-    }
-    return representative;
-}
 
-/// Parameter of a vertex (representative) on an arc.
-struct Cut {
-    Interval t;
-    std::uint32_t vertex = 0;
+  private:
+    const ArcSet& set_;
+    std::vector<std::uint32_t> start_;
+    std::vector<OnArc> on_arc_;
 };
 
-/// The arc's interior vertices in order. It passes each once: contacts that are one vertex have one parameter, where
-/// their enclosures agree.
-void order_cuts(std::vector<Cut>& cuts, std::uint32_t first, std::uint32_t last) {
-    std::erase_if(cuts, [&](const Cut& c) { return c.vertex == first || c.vertex == last; });
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return std::tuple(a.vertex, a.t.lo, a.t.hi) < std::tuple(b.vertex, b.t.lo, b.t.hi);
-    });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
-        if (kept > 0 && cuts[kept - 1].vertex == cuts[i].vertex)
-            cuts[kept - 1].t = meet(cuts[kept - 1].t, cuts[i].t);
+/// Each representative takes the best that is known of its point.
+void join_vertices(ArcSet& set, ArcOrder& order) {
+    const auto meet = [](const Interval& a, const Interval& b) {
+        const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
+        return m.lo <= m.hi ? m : a;
+    };
+    for (std::uint32_t k = 0; k < set.vertices.size(); ++k) {
+        const Vertex& v = set.vertices[k];
+        Vertex& r = set.vertices[order.representative(k)];
+        if (&v == &r || r.integral) continue;
+        if (v.integral)
+            r = v;
         else
-            cuts[kept++] = cuts[i];
+            r.x = meet(r.x, v.x), r.y = meet(r.y, v.y);
     }
-    cuts.resize(kept);
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
-        return std::pair(a.t.mid(), a.vertex) < std::pair(b.t.mid(), b.vertex);
-    });
 }
 
-void emit_edges(Arrangement& out, std::uint32_t arc, std::vector<Cut>& cuts, const std::vector<std::uint32_t>& rep) {
-    const Arc& a = out.set.arcs[arc];
-    Interval t = a.t0;
-    std::uint32_t v = rep[a.v0];
-    const std::uint32_t last = rep[a.v1];
-    order_cuts(cuts, v, last);
-    for (const Cut& c : cuts) {
-        out.edges.push_back({arc, t, c.t, v, c.vertex});
-        t = c.t, v = c.vertex;
-    }
-    if (v != last) out.edges.push_back({arc, t, a.t1, v, last});
-}
-
-void cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, const std::vector<std::uint32_t>& rep) {
-    std::vector<std::uint32_t> start(out.set.arcs.size() + 1, 0); // contacts by arc
-    for (const PairContact& c : contacts)
-        ++start[c.a + 1], ++start[c.b + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Cut> all(start.back());
-    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-    for (const PairContact& c : contacts) {
-        all[next[c.a]++] = {c.at.s, rep[c.vertex]};
-        all[next[c.b]++] = {c.at.t, rep[c.vertex]};
-    }
-    std::vector<Cut> cuts;
+/// Cuts the arcs into edges. False: the order of vertices on some arc couldn't be decided.
+bool cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, PlanarStats& stats) {
+    const ArcVertices vertices(out.set, contacts);
+    ArcOrder order(out.set, stats);
+    std::vector<OnArc> on_arc;
     for (std::uint32_t arc = 0; arc < out.set.arcs.size(); ++arc) {
-        cuts.assign(all.begin() + start[arc], all.begin() + start[arc + 1]);
-        emit_edges(out, arc, cuts, rep);
+        vertices.of(arc, on_arc);
+        order.sort(out.set.arcs[arc], on_arc);
+        for (std::size_t k = 0; k + 1 < on_arc.size(); ++k)
+            out.edges.push_back({arc, on_arc[k].t, on_arc[k + 1].t, on_arc[k].vertex, on_arc[k + 1].vertex});
     }
+    for (Edge& e : out.edges)
+        e.va = order.representative(e.va), e.vb = order.representative(e.vb);
+    join_vertices(out.set, order);
+    return order.consistent() &&
+           std::none_of(out.edges.begin(), out.edges.end(), [](const Edge& e) { return e.va == e.vb; });
 }
 
 } // namespace
@@ -317,12 +301,16 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         if (shared.size() > known) continue;
 
         add_vertices(out.set, found.contacts);
-        const std::vector<std::uint32_t> representative = identify_vertices(out.set.vertices);
-        cut_arcs(out, found.contacts, representative);
+        pass.exact_comparisons = found.exact_comparisons;
+        const bool decided = cut_arcs(out, found.contacts, pass) && found.decided;
         pass.box_pairs = pairs.size(), pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;
         pass.vertices = out.set.vertices.size(), pass.edges = out.edges.size();
         stats = pass;
+        if (!decided) {
+            return Error{ErrorClass::Runtime, diag::kPlanarInconsistent,
+                         "the order of crossings along a curve can't be decided; please report this file", ""};
+        }
         return out;
     }
 }

@@ -27,9 +27,8 @@ struct Arrangement {
     }
 };
 
-/// Vertices whose enclosures overlap (about 2^-50 of the extent) are one vertex; every crossing, tangency, shared end
-/// point and overlap before that is decided by a certificate or exactly. Pairs are spread over `threads`; the result
-/// does not depend on it.
+/// Every crossing, tangency, shared end point, overlap and coincidence is decided by a certificate or exactly. Pairs
+/// are spread over `threads`; the result does not depend on it.
 Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats);
 
 } // namespace fetexc

@@ -5,16 +5,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "compiler/geometry/precise.h"
+#include "compiler/diagnostics.h"
+#include "compiler/planar/exact_points.h"
 
 namespace fetexc {
 namespace {
 
-/// Half-step position of an enclosed coordinate; lines inside the enclosure win.
-HalfStep half_step(const Interval& v, std::int64_t pitch, std::uint32_t lines) {
+/// Half-step position of an enclosed coordinate; side(level): the exact side of a level inside the enclosure.
+template <class Side> HalfStep half_step(const Interval& v, std::int64_t pitch, std::uint32_t lines, const Side& side) {
     const double p = static_cast<double>(pitch);
     const double nearest = std::clamp(std::round(v.mid() / p), 0.0, static_cast<double>(lines));
-    if (v.contains(nearest * p)) return 2 * static_cast<HalfStep>(nearest);
+    if (v.contains(nearest * p))
+        return 2 * static_cast<HalfStep>(nearest) + side(pitch * static_cast<std::int64_t>(nearest));
     if (v.mid() < 0) return -1;
     const double cell = std::floor(v.mid() / p);
     return cell >= lines ? 2 * static_cast<HalfStep>(lines) + 1 : 2 * static_cast<HalfStep>(cell) + 1;
@@ -43,13 +45,15 @@ class PlanarMap::Builder {
   public:
     Builder(PlanarMap& map, PlanarStats& stats) : map_(map), grid_(map.grid_), stats_(stats) {}
 
-    void run() {
+    /// False: a question about a position on the grid couldn't be decided.
+    bool run() {
         add_vertices();
         for (std::uint32_t e = 0; e < map_.arrangement_.edges.size(); ++e)
             walk(e);
-        merge_nodes();
+        sort_side_edges();
         sort_into_texels();
         sort_steps();
+        return decided_;
     }
 
   private:
@@ -63,26 +67,28 @@ class PlanarMap::Builder {
         std::uint32_t texel;
     };
 
-    /// The enclosure of a node along the grid line it lies on, for telling nodes apart.
-    struct Placed {
-        HalfStep hx, hy;
-        Interval along;
-        std::uint32_t node;
-    };
-
     std::uint32_t add_node(const Interval& x, const Interval& y, HalfStep hx, HalfStep hy) {
         const auto n = static_cast<std::uint32_t>(map_.nodes_.size());
-        map_.nodes_.push_back(
-            {is_line(hx) ? on_line(hx, grid_.px) : x.mid(), is_line(hy) ? on_line(hy, grid_.py) : y.mid(), hx, hy});
-        if (is_line(hx) || is_line(hy))
-            placed_.push_back({hx, hy, is_line(hx) ? (is_line(hy) ? Interval(0) : y) : x, n});
+        const Interval xr = is_line(hx) ? Interval(on_line(hx, grid_.px)) : x,
+                       yr = is_line(hy) ? Interval(on_line(hy, grid_.py)) : y;
+        map_.nodes_.push_back({xr.mid(), yr.mid(), xr, yr, hx, hy});
         return n;
     }
 
+    int decide(std::optional<int> side) {
+        decided_ = decided_ && side.has_value();
+        return side.value_or(0);
+    }
+
     void add_vertices() {
-        map_.nodes_.reserve(map_.arrangement_.set.vertices.size() * 2);
-        for (const Vertex& v : map_.arrangement_.set.vertices) {
-            add_node(v.x, v.y, half_step(v.x, grid_.px, grid_.width), half_step(v.y, grid_.py, grid_.height));
+        const ArcSet& set = map_.arrangement_.set;
+        map_.nodes_.reserve(set.vertices.size() * 2);
+        for (const Vertex& v : set.vertices) {
+            const auto side = [&](Axis axis) {
+                return [&, axis](std::int64_t level) { return decide(side_of_level(set, v, axis, level)); };
+            };
+            add_node(v.x, v.y, half_step(v.x, grid_.px, grid_.width, side(Axis::X)),
+                     half_step(v.y, grid_.py, grid_.height, side(Axis::Y)));
         }
     }
 
@@ -95,8 +101,8 @@ class PlanarMap::Builder {
         crossings_.clear();
         crossings_.push_back({0, edge.ta, edge.va});
         const std::size_t before_lines = crossings_.size();
-        cross_lines(s, Axis::X, a, b);
-        cross_lines(s, Axis::Y, a, b);
+        cross_lines(e, s, Axis::X, a, b);
+        cross_lines(e, s, Axis::Y, a, b);
         std::sort(crossings_.begin() + static_cast<std::ptrdiff_t>(before_lines), crossings_.end(),
                   [](const Crossing& p, const Crossing& q) { return p.order < q.order; });
         crossings_.push_back({0, edge.tb, edge.vb});
@@ -111,21 +117,24 @@ class PlanarMap::Builder {
     }
 
     /// Crossings with the lines strictly between the ends. A crossing in a corner belongs to the vertical line's list.
-    void cross_lines(const Stretch& s, Axis axis, const GridNode& a, const GridNode& b) {
+    void cross_lines(std::uint32_t e, const Stretch& s, Axis axis, const GridNode& a, const GridNode& b) {
         const bool vertical = axis == Axis::X;
         const HalfStep from = vertical ? a.hx : a.hy, to = vertical ? b.hx : b.hy;
         const HalfStep step = to > from ? 1 : -1, dx = b.hx > a.hx ? 1 : -1, dy = b.hy > a.hy ? 1 : -1;
         for (HalfStep h = from + step; h != to && from != to; h += step) {
             if (!is_line(h)) continue;
-            const double v = on_line(h, vertical ? grid_.px : grid_.py);
+            const std::int64_t level = (vertical ? grid_.px : grid_.py) * (h / 2);
+            const auto v = static_cast<double>(level);
             Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
             const PointEnclosure p = level_point(s, axis, v, t);
-            const Interval w = vertical ? p.y : p.x;
+            const auto side = [&](std::int64_t other) {
+                return decide(side_of_level(*s.curve, axis, level, t, other));
+            };
             HalfStep hx = h, hy = h;
             if (vertical)
-                hy = clamp_between(half_step(w, grid_.py, grid_.height), a.hy, b.hy);
+                hy = clamp_between(half_step(p.y, grid_.py, grid_.height, side), a.hy, b.hy);
             else
-                hx = clamp_between(half_step(w, grid_.px, grid_.width), a.hx, b.hx);
+                hx = clamp_between(half_step(p.x, grid_.px, grid_.width, side), a.hx, b.hx);
             const HalfStep order = dx * (hx - a.hx) + dy * (hy - a.hy);
             const bool corner = is_line(hx) && is_line(hy);
             if (corner && std::any_of(crossings_.begin() + 1, crossings_.end(),
@@ -133,7 +142,8 @@ class PlanarMap::Builder {
                 continue;
             if (at_end(hx, hy, a) || at_end(hx, hy, b)) continue;
             ++stats_.grid_crossings;
-            crossings_.push_back({order, t, add_node(vertical ? Interval(v) : w, vertical ? w : Interval(v), hx, hy)});
+            map_.line_crossings_.push_back({e, axis, level, t});
+            crossings_.push_back({order, t, add_node(p.x, p.y, hx, hy)});
         }
     }
 
@@ -175,7 +185,7 @@ class PlanarMap::Builder {
     void add_steps(std::uint32_t e, const GridNode& a, const GridNode& b, std::uint32_t line) {
         const HalfStep lo = std::min(a.hy, b.hy), hi = std::max(a.hy, b.hy);
         const std::uint32_t arc = map_.arrangement_.edges[e].arc;
-        const std::int32_t sign = before(a, b) ? 1 : -1; // a is at the smaller parameter
+        const std::int32_t sign = map_.arrangement_.set.arcs[arc].y_increasing ? 1 : -1;
         for (HalfStep j = std::max<HalfStep>(0, (lo + 1) / 2); 2 * j < hi && j < static_cast<HalfStep>(grid_.height);
              ++j) {
             map_.steps_.push_back({static_cast<std::uint32_t>(j), line, arc, sign});
@@ -184,48 +194,15 @@ class PlanarMap::Builder {
         if (lo < bottom && hi >= bottom) map_.steps_.push_back({grid_.height, line, arc, sign});
     }
 
-    /// Nodes on one grid edge (or corner) whose enclosures overlap become one.
-    void merge_nodes() {
-        std::sort(placed_.begin(), placed_.end(), [](const Placed& p, const Placed& q) {
-            return std::tuple(p.hx, p.hy, p.along.mid(), p.node) < std::tuple(q.hx, q.hy, q.along.mid(), q.node);
-        });
-        std::vector<std::uint32_t> same(map_.nodes_.size());
-        std::iota(same.begin(), same.end(), 0u);
-        for (std::size_t k = 0; k < placed_.size();) {
-            Placed& first = placed_[k];
-            const std::size_t begin = k;
-            for (++k; k < placed_.size() && joins(first, placed_[k]); ++k) {
-                same[placed_[k].node] = first.node;
-                first.along = {std::max(first.along.lo, placed_[k].along.lo),
-                               std::min(first.along.hi, placed_[k].along.hi)};
-            }
-            if (k - begin > 1) place_along(first);
-        }
-        for (Piece& piece : pieces_) {
-            piece.sub.n0 = same[piece.sub.n0];
-            piece.sub.n1 = same[piece.sub.n1];
-        }
-        for (SideEdge& s : map_.side_edges_)
-            s.n0 = same[s.n0], s.n1 = same[s.n1];
+    void sort_side_edges() {
         std::sort(map_.side_edges_.begin(), map_.side_edges_.end(), [](const SideEdge& a, const SideEdge& b) {
             return std::tie(a.across, a.texel, a.n0, a.n1) < std::tie(b.across, b.texel, b.n0, b.n1);
         });
     }
 
-    static bool joins(const Placed& a, const Placed& b) {
-        return a.hx == b.hx && a.hy == b.hy && a.along.overlaps(b.along);
-    }
-
-    /// The joined node stands where all enclosures agree (exactly, if one of them is exact).
-    void place_along(const Placed& p) {
-        if (is_line(p.hx) && is_line(p.hy)) return;
-        (is_line(p.hx) ? map_.nodes_[p.node].y : map_.nodes_[p.node].x) = p.along.mid();
-    }
-
     void sort_into_texels() {
         const std::size_t texels = static_cast<std::size_t>(grid_.width) * grid_.height;
         map_.texel_start_.assign(texels + 1, 0);
-        std::erase_if(pieces_, [](const Piece& p) { return p.sub.n0 == p.sub.n1; });
         for (const Piece& p : pieces_)
             ++map_.texel_start_[p.texel + 1];
         std::partial_sum(map_.texel_start_.begin(), map_.texel_start_.end(), map_.texel_start_.begin());
@@ -250,7 +227,7 @@ class PlanarMap::Builder {
     PlanarStats& stats_;
     std::vector<Crossing> crossings_;
     std::vector<Piece> pieces_;
-    std::vector<Placed> placed_;
+    bool decided_ = true;
 };
 
 Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
@@ -259,8 +236,35 @@ Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigne
     PlanarMap map;
     map.grid_ = grid;
     map.arrangement_ = std::move(arrangement).value();
-    Builder(map, stats).run();
+    if (!Builder(map, stats).run()) {
+        return Error{ErrorClass::Runtime, diag::kPlanarInconsistent,
+                     "the side of a grid line can't be decided; please report this file", ""};
+    }
     return map;
+}
+
+FixedPoint PlanarMap::fixed(std::uint32_t n) const {
+    const std::size_t vertices = arrangement_.set.vertices.size();
+    if (n < vertices) return fixed_point(arrangement_.set, arrangement_.set.vertices[n]);
+    const LineCrossing& c = line_crossings_[n - vertices];
+    const Curve& curve = arrangement_.set.curves[arrangement_.set.arcs[arrangement_.edges[c.edge].arc].curve];
+    const std::optional<FixedPoint> p = fixed_level(curve, c.axis, c.level, c.t);
+    return p ? *p : FixedPoint{fixed_from(nodes_[n].x), fixed_from(nodes_[n].y)};
+}
+
+LinePosition PlanarMap::position(std::uint32_t n, Axis across) const {
+    const HalfStep h = across == Axis::X ? nodes_[n].hy : nodes_[n].hx;
+    return {h, is_line(h) ? kNone : n};
+}
+
+bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across) const {
+    if (a.h != b.h) return a.h < b.h;
+    if (a.node == b.node) return false;
+    const GridNode &p = nodes_[a.node], &q = nodes_[b.node];
+    const Interval &u = across == Axis::X ? p.y_range : p.x_range, &v = across == Axis::X ? q.y_range : q.x_range;
+    if (const int c = compare(u, v); c != 0) return c < 0;
+    const FixedPoint s = fixed(a.node), t = fixed(b.node);
+    return across == Axis::X ? s.y < t.y : s.x < t.x;
 }
 
 std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) const {
@@ -274,8 +278,9 @@ bool PlanarMap::runs_along(Axis across, std::uint32_t i, std::uint32_t j, const 
     auto it = std::lower_bound(side_edges_.begin(), side_edges_.end(), key,
                                [](const SideEdge& s, const auto& k) { return std::pair(s.across, s.texel) < k; });
     for (; it != side_edges_.end() && std::pair(it->across, it->texel) == key; ++it) {
-        const LinePosition a = along(nodes_[it->n0], across), b = along(nodes_[it->n1], across);
-        if (std::min(a, b) < to && from < std::max(a, b)) return true;
+        LinePosition a = position(it->n0, across), b = position(it->n1, across);
+        if (before(b, a, across)) std::swap(a, b);
+        if (before(a, to, across) && before(from, b, across)) return true;
     }
     return false;
 }
@@ -299,11 +304,13 @@ void PlanarMap::apply(Windings& w, const RowStep& step) const {
     }
 }
 
-int PlanarMap::sweep_sign(const SubEdge& s) const { return before(nodes_[s.n0], nodes_[s.n1]) ? 1 : -1; }
+bool PlanarMap::runs_down(const SubEdge& s) const {
+    return arrangement_.set.arcs[arrangement_.edges[s.edge].arc].y_increasing;
+}
 
 void PlanarMap::cross_row_line(Windings& w, const SubEdge& s, HalfStep line) const {
     if (nodes_[s.n0].hy != line && nodes_[s.n1].hy != line) return;
-    const int sign = sweep_sign(s);
+    const int sign = runs_down(s) ? 1 : -1;
     for (const Contribution& c : contributions_of(s))
         add_winding(w, c.shape, sign * c.winding);
 }

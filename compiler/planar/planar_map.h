@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/geometry/precise.h"
 #include "compiler/planar/arrangement.h"
 
 namespace fetexc {
@@ -15,10 +16,19 @@ namespace fetexc {
 using HalfStep = std::int32_t;
 
 /// A vertex or a crossing with a grid line. Each is one object: neighbouring texels share it, so they agree by
-/// construction. A node whose enclosure holds a grid line lies on it (x or y is then exactly the line's).
+/// construction. Whether it lies on a grid line is decided exactly (x or y is then exactly the line's).
 struct GridNode {
     double x = 0, y = 0; ///< planar space
+    Interval x_range, y_range;
     HalfStep hx = 0, hy = 0;
+};
+
+/// Where an edge crosses a grid line.
+struct LineCrossing {
+    std::uint32_t edge = 0;
+    Axis axis = Axis::X;    ///< whose coordinate is the line's
+    std::int64_t level = 0; ///< the line's, in planar space
+    Interval t;
 };
 
 /// Part of an edge inside one texel; t grows from n0 to n1. Never along a grid line.
@@ -42,11 +52,11 @@ struct SideEdge {
     std::uint32_t n0 = 0, n1 = 0;
 };
 
-/// Position along a grid line: half step and coordinate of a node in its direction.
+/// Position along a grid line: a corner of the grid, or a node between two corners.
 struct LinePosition {
     HalfStep h = 0;
-    double v = 0;
-    friend auto operator<=>(const LinePosition&, const LinePosition&) = default;
+    std::uint32_t node = kNone; ///< kNone at a corner
+    friend bool operator==(const LinePosition&, const LinePosition&) = default;
 };
 
 using Windings = std::vector<Contribution>; ///< ascending shapes, no zeros
@@ -60,6 +70,12 @@ class PlanarMap {
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
     [[nodiscard]] const GridNode& node(std::uint32_t n) const { return nodes_[n]; }
+    /// Coordinates of a node to 2^-kFixedBits: exact arithmetic, microseconds.
+    [[nodiscard]] FixedPoint fixed(std::uint32_t n) const;
+    /// Position of a node on a line across the axis (X: a vertical line).
+    [[nodiscard]] LinePosition position(std::uint32_t n, Axis across) const;
+    /// a comes before b on a line across the axis.
+    [[nodiscard]] bool before(const LinePosition& a, const LinePosition& b, Axis across) const;
     [[nodiscard]] std::span<const SubEdge> sub_edges(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] Stretch stretch_of(const SubEdge& s) const;
     [[nodiscard]] std::span<const Contribution> contributions_of(const SubEdge& s) const;
@@ -90,8 +106,8 @@ class PlanarMap {
         }
     }
 
-    /// +1: t grows in sweep direction (downwards, rightwards when level), else −1.
-    [[nodiscard]] int sweep_sign(const SubEdge& s) const;
+    /// t grows downwards.
+    [[nodiscard]] bool runs_down(const SubEdge& s) const;
 
   private:
     class Builder;
@@ -101,25 +117,13 @@ class PlanarMap {
 
     Grid grid_;
     Arrangement arrangement_;
-    std::vector<GridNode> nodes_;
+    std::vector<GridNode> nodes_; ///< the arrangement's vertices, then crossings with grid lines
+    std::vector<LineCrossing> line_crossings_;
     std::vector<SubEdge> sub_edges_;
     std::vector<std::uint32_t> texel_start_; ///< CSR over texels, row-major
     std::vector<SideEdge> side_edges_;       ///< sorted by direction, texel
     std::vector<RowStep> steps_;             ///< sorted by row, line
     std::vector<std::uint32_t> step_start_;  ///< per row, height + 2 entries
 };
-
-/// Where a node lies along a line across the axis (across X: a vertical line).
-inline LinePosition along(const GridNode& n, Axis across) {
-    return across == Axis::X ? LinePosition{n.hy, n.y} : LinePosition{n.hx, n.x};
-}
-
-/// Order of the sweep: down, then right.
-inline bool before(const GridNode& a, const GridNode& b) {
-    if (a.hy != b.hy) return a.hy < b.hy;
-    if (a.y != b.y) return a.y < b.y;
-    if (a.hx != b.hx) return a.hx < b.hx;
-    return a.x < b.x;
-}
 
 } // namespace fetexc

@@ -24,15 +24,19 @@ void ReachabilityRow::append(Parts& parts, const LinePosition& from, std::uint32
 
 /// visit(vertex of a, vertex of b, from, to) for every stretch along which the two face each other.
 template <class Visit>
-void ReachabilityRow::facing(const Parts& a, const Parts& b, const LinePosition& end, const Visit& visit) {
+void ReachabilityRow::facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end,
+                             const Visit& visit) {
+    const auto end_of = [&](const Parts& parts, std::size_t k) {
+        return k + 1 < parts.size() ? parts[k + 1].from : LinePosition{end};
+    };
+    const auto before = [&](const LinePosition& p, const LinePosition& q) { return map.before(p, q, across); };
     std::size_t i = 0, k = 0;
     while (i < a.size() && k < b.size()) {
-        const LinePosition a_end = i + 1 < a.size() ? a[i + 1].from : end,
-                           b_end = k + 1 < b.size() ? b[k + 1].from : end;
-        const LinePosition from = std::max(a[i].from, b[k].from), to = std::min(a_end, b_end);
-        if (from < to) visit(a[i].vertex, b[k].vertex, from, to);
-        if (a_end <= b_end) ++i;
-        if (b_end <= a_end) ++k;
+        const LinePosition a_end = end_of(a, i), b_end = end_of(b, k);
+        const LinePosition from = std::max(a[i].from, b[k].from, before), to = std::min(a_end, b_end, before);
+        if (before(from, to)) visit(a[i].vertex, b[k].vertex, from, to);
+        if (!before(b_end, a_end)) ++i;
+        if (!before(a_end, b_end)) ++k;
     }
 }
 
@@ -43,8 +47,7 @@ std::uint32_t ReachabilityRow::new_vertex(ResultId result) {
 }
 
 void ReachabilityRow::link_to_left(const Parts& left) {
-    const double y = static_cast<double>(map_->grid().py * (static_cast<std::int64_t>(row_) + 1));
-    facing(right_, left, {2 * static_cast<HalfStep>(row_) + 2, y},
+    facing(*map_, Axis::X, right_, left, 2 * static_cast<HalfStep>(row_) + 2,
            [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
                if (result_[a] == result_[b])
                    links_.push_back({a, b});
@@ -58,11 +61,10 @@ std::uint32_t ReachabilityRow::add_empty(ResultId result) {
         ++next_;
         return static_cast<std::uint32_t>(result_.size() - 1);
     }
-    const Grid& g = map_->grid();
     const std::uint32_t v = new_vertex(result);
-    const Parts left{{{2 * static_cast<HalfStep>(row_), static_cast<double>(g.py * row_)}, v}};
+    const Parts left{{{2 * static_cast<HalfStep>(row_)}, v}};
     if (next_ > 0) link_to_left(left);
-    const LinePosition corner{2 * static_cast<HalfStep>(next_), static_cast<double>(g.px * next_)};
+    const LinePosition corner{2 * static_cast<HalfStep>(next_)};
     append(top_, corner, v), append(bottom_, corner, v);
     right_ = left;
     run_ = true;
@@ -89,14 +91,12 @@ std::uint32_t ReachabilityRow::add_texel(const TexelMap& texel, std::span<const 
 ReachabilityRow::Parts ReachabilityRow::parts(const TexelMap& texel, TexelSide side,
                                               std::span<const std::uint32_t> region_of_face,
                                               std::uint32_t first) const {
-    const Grid& g = map_->grid();
     const bool vertical = side == TexelSide::Left || side == TexelSide::Right;
-    const LinePosition corner = vertical ? LinePosition{texel.frame.top, static_cast<double>(g.py * texel.j)}
-                                         : LinePosition{texel.frame.left, static_cast<double>(g.px * texel.i)};
+    const LinePosition corner{vertical ? texel.frame.top : texel.frame.left};
     Parts out;
     for (const SidePart& p : texel.sweep.sides[static_cast<std::size_t>(side)]) {
         const LinePosition from =
-            p.from == kNone ? corner : along(map_->node(texel.nodes[p.from]), vertical ? Axis::X : Axis::Y);
+            p.from == kNone ? corner : map_->position(texel.graph.nodes[p.from], vertical ? Axis::X : Axis::Y);
         append(out, from, first + region_of_face[p.face]);
     }
     return out;
@@ -122,10 +122,8 @@ ReachabilityGraph::ReachabilityGraph(const PlanarMap& map, std::vector<Reachabil
 }
 
 void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below) {
-    const Grid& g = map.grid();
     const std::uint32_t below_base = row_start_.back(), above_base = row_start_[row_start_.size() - 2];
-    const LinePosition end{2 * static_cast<HalfStep>(g.width), static_cast<double>(g.right())};
-    ReachabilityRow::facing(above.bottom_, below.top_, end,
+    ReachabilityRow::facing(map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width),
                             [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
                                 if (above.result_[a] == below.result_[b]) {
                                     links_.push_back({above_base + a, below_base + b});

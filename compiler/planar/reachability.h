@@ -54,7 +54,8 @@ class ReachabilityRow {
     using Parts = std::vector<Part>;
     static void append(Parts& parts, const LinePosition& from, std::uint32_t vertex);
     template <class Visit>
-    static void facing(const Parts& a, const Parts& b, const LinePosition& end, const Visit& visit);
+    static void facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end,
+                       const Visit& visit);
     std::uint32_t new_vertex(ResultId result);
     void link_to_left(const Parts& left);
     [[nodiscard]] Parts parts(const TexelMap& texel, TexelSide side, std::span<const std::uint32_t> region_of_face,

@@ -6,14 +6,16 @@
 
 namespace fetexc {
 
-bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes,
-                std::span<const SweepEdge> edges, std::span<const Cut> cuts, TexelFrame frame, SweepResult& out) {
-    sub_edges_ = sub_edges, nodes_ = nodes, edges_ = edges, frame_ = frame, out_ = &out;
+bool Sweep::run(std::span<const SubEdge> sub_edges, const SweepGraph& graph, std::span<const Cut> cuts,
+                TexelFrame frame, SweepResult& out) {
+    sub_edges_ = sub_edges, nodes_ = graph.nodes, ranks_ = graph.ranks, edges_ = graph.edges, frame_ = frame,
+    out_ = &out;
+    decided_ = true;
     out = {};
     has_cuts_ = !cuts.empty();
-    prepare(nodes.size());
+    prepare(nodes_.size());
     gaps_.push_back(open_gap(new_face(), 0, kNone));
-    for (std::uint32_t k = 0; k < nodes.size(); ++k) {
+    for (std::uint32_t k = 0; k < nodes_.size(); ++k) {
         if (!seen_first_slab_ && node(k).hy > frame.top) rank_top_line();
         if (!cuts.empty() && cuts.front().first == k) {
             if (!cut(cuts.front())) return false;
@@ -27,7 +29,7 @@ bool Sweep::run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_
     if (side(TexelSide::Bottom).empty()) side(TexelSide::Bottom).push_back({kNone, gaps_.front().face});
     for (const Gap& g : gaps_)
         close_gap(g, kNone);
-    return status_.empty() && cuts.empty();
+    return decided_ && status_.empty() && cuts.empty();
 }
 
 void Sweep::prepare(std::size_t nodes) {
@@ -214,52 +216,93 @@ void Sweep::next_band() {
 namespace {
 
 struct Range {
-    double lo = 0, hi = 0;
-    [[nodiscard]] double length() const { return hi - lo; }
+    std::uint32_t lo = 0, hi = 0; ///< ranks
 };
 
 Range common(Range a, Range b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 
+bool rises(const Stretch& s, Axis axis) { return axis == Axis::X ? s.x_increasing : s.y_increasing; }
+
 /// Position along the other axis where the stretch passes the level.
 Interval position_at(const Stretch& s, Axis level_axis, double level) {
-    const bool over_y = level_axis == Axis::Y;
-    const Interval t = parameter_at(*s.curve, level_axis, s.range, over_y ? s.y_increasing : s.x_increasing, level);
-    return value_over(*s.curve, over_y ? Axis::X : Axis::Y, t);
+    const Interval t = parameter_at(*s.curve, level_axis, s.range, rises(s, level_axis), level);
+    return value_over(*s.curve, level_axis == Axis::Y ? Axis::X : Axis::Y, t);
+}
+
+const Interval& range_along(const GridNode& n, Axis axis) { return axis == Axis::X ? n.x_range : n.y_range; }
+
+mpq_class to_rational(Fixed v) {
+    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
+    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
+    mpq_class out(high + low);
+    mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), budget::kFixedBits);
+    return out;
 }
 
 } // namespace
 
-/// e runs left of f where both run: decided by the boxes, or on a level they have in common. They don't cross, so one
-/// level is enough.
+/// e runs left of f where both run. They don't cross, so boxes or one common level decide.
 bool Sweep::left_of(std::uint32_t e, std::uint32_t f) {
-    const GridNode &et = node(edges_[e].top), &eb = node(edges_[e].bottom), &ft = node(edges_[f].top),
-                   &fb = node(edges_[f].bottom);
-    const Range ex{std::min(et.x, eb.x), std::max(et.x, eb.x)}, fx{std::min(ft.x, fb.x), std::max(ft.x, fb.x)};
+    const auto x_range = [&](const SweepEdge& s) {
+        const std::uint32_t a = ranks_[s.top].x, b = ranks_[s.bottom].x;
+        return Range{std::min(a, b), std::max(a, b)};
+    };
+    const Range ex = x_range(edges_[e]), fx = x_range(edges_[f]);
     if (ex.hi <= fx.lo && ex.lo < fx.hi) return true;
     if (fx.hi <= ex.lo && fx.lo < ex.hi) return false;
-    const Range y = common({et.y, eb.y}, {ft.y, fb.y}), x = common(ex, fx);
-    if (edges_[e].top != edges_[f].top) {
-        if (y.length() > 0) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
-        // f ends on the level where e starts, or e is level: any of its points decides, take the middle one.
-        if (fb.y <= et.y) return et.x < fb.x;
-        const double middle = et.y == eb.y ? 0.5 * (ex.lo + ex.hi) : et.x;
-        return middle < position_at(map_.stretch_of(sub_edges_[edges_[f].sub]), Axis::Y, et.y).mid();
-    }
-    // From a common top on, below and beside agree: take the axis along which the two have more in common.
-    if (y.length() >= x.length()) return order_on_levels(e, f, Axis::Y, y.lo, y.hi) < 0;
-    const int below = order_on_levels(e, f, Axis::X, x.lo, x.hi); // +1: e is below f
-    return fb.x >= ft.x ? below > 0 : below < 0;                  // below an edge that falls to the right is left of it
+    return left_of_within(e, f);
 }
 
-int Sweep::order_on_levels(std::uint32_t e, std::uint32_t f, Axis axis, double lo, double hi) {
+/// The boxes overlap.
+bool Sweep::left_of_within(std::uint32_t e, std::uint32_t f) {
+    const SweepEdge &se = edges_[e], &sf = edges_[f];
+    const Range ey{ranks_[se.top].y, ranks_[se.bottom].y}, fy{ranks_[sf.top].y, ranks_[sf.bottom].y};
+    const Range y = common(ey, fy);
+    const std::uint32_t y_from = ey.lo >= fy.lo ? se.top : sf.top, y_to = ey.hi <= fy.hi ? se.bottom : sf.bottom;
+    if (se.top != sf.top) {
+        if (y.lo < y.hi) return order_between(e, f, Axis::Y, y_from, y_to) < 0;
+        if (fy.hi <= ey.lo) return ranks_[se.top].x < ranks_[sf.bottom].x; // f ends on the level where e starts
+        if (fy.lo >= ey.lo) return ranks_[se.top].x < ranks_[sf.top].x;    // e is level, f starts on its level
+        return level_edge_against(e, f) < 0;
+    }
+    // From a common top on: along the axis where both reach.
+    if (y.lo < y.hi) return order_between(e, f, Axis::Y, y_from, y_to) < 0;
+    // One of them is level and runs right; the boxes overlap, so the other does, too: the lower one is left.
+    const std::uint32_t x_to = ranks_[se.bottom].x <= ranks_[sf.bottom].x ? se.bottom : sf.bottom;
+    return order_between(e, f, Axis::X, se.top, x_to) > 0;
+}
+
+/// Sign of e − f, in position, on a level strictly between two nodes.
+int Sweep::order_between(std::uint32_t e, std::uint32_t f, Axis axis, std::uint32_t from, std::uint32_t to) {
     const Stretch a = map_.stretch_of(sub_edges_[edges_[e].sub]), b = map_.stretch_of(sub_edges_[edges_[f].sub]);
+    const double lo = range_along(node(from), axis).hi, hi = range_along(node(to), axis).lo;
+    const double gap = 64 * budget::kUnitRoundoff * (std::fabs(lo) + std::fabs(hi));
     for (const double w : {0.5, 0.9375, 0.25}) {
+        if (!(hi - lo > gap)) break;
         const double level = lo + w * (hi - lo);
         if (const int c = compare(position_at(a, axis, level), position_at(b, axis, level)); c != 0) return c;
     }
     ++stats_.exact_comparisons;
-    const double level = lo + 0.5 * (hi - lo);
-    return axis == Axis::Y ? compare_x_at_y_exact(a, b, level) : compare_y_at_x_exact(a, b, level);
+    const FixedPoint p = order_.fixed(nodes_[from]), q = order_.fixed(nodes_[to]);
+    const mpq_class level = (to_rational(axis == Axis::X ? p.x : p.y) + to_rational(axis == Axis::X ? q.x : q.y)) / 2;
+    const int c = compare_positions_exact(a, b, axis, level);
+    decided_ = decided_ && c != 0;
+    return c;
+}
+
+/// Sign of e − f, in position, for a level edge e that f passes: any point of e decides, its middle does best.
+int Sweep::level_edge_against(std::uint32_t e, std::uint32_t f) {
+    const GridNode &p = node(edges_[e].top), &q = node(edges_[e].bottom);
+    const Stretch s = map_.stretch_of(sub_edges_[edges_[f].sub]);
+    const double middle = 0.5 * (p.x + q.x);
+    if (p.y_range.lo == p.y_range.hi) {
+        if (const int c = compare(Interval(middle), position_at(s, Axis::Y, p.y)); c != 0) return c;
+    }
+    ++stats_.exact_comparisons;
+    const FixedPoint a = order_.fixed(nodes_[edges_[e].top]), b = order_.fixed(nodes_[edges_[e].bottom]);
+    const int c = -compare_position_exact(s, Axis::Y, to_rational(a.y), (to_rational(a.x) + to_rational(b.x)) / 2);
+    decided_ = decided_ && c != 0;
+    return c;
 }
 
 std::uint32_t Sweep::new_face() {

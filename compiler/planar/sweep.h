@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "compiler/planar/planar_map.h"
+#include "compiler/planar/node_order.h"
 
 namespace fetexc {
 
@@ -16,6 +16,14 @@ namespace fetexc {
 struct SweepEdge {
     std::uint32_t sub = 0;             ///< index into PlanarMap::sub_edges(i,j)
     std::uint32_t top = 0, bottom = 0; ///< indices into the sweep's nodes
+    bool down = true;                  ///< t grows from top to bottom
+};
+
+/// What a sweep runs over.
+struct SweepGraph {
+    std::vector<std::uint32_t> nodes; ///< map nodes, in sweep order
+    std::vector<NodeRank> ranks;
+    std::vector<SweepEdge> edges;
 };
 
 /// The part of an edge inside one band. Faces are those of the band: after `unite`, equal ids are one face.
@@ -69,13 +77,13 @@ struct TexelFrame {
 
 class Sweep {
   public:
-    Sweep(const PlanarMap& map, PlanarStats& stats) : map_(map), stats_(stats) {}
+    Sweep(const PlanarMap& map, NodeOrder& order, PlanarStats& stats) : map_(map), order_(order), stats_(stats) {}
 
-    /// nodes: ascending (before()). cuts: ascending, disjoint ranges of nodes on one level each; that level ends a band
-    /// and starts the next, edges along it belong to neither. False: the order of edges at a node contradicts the order
-    /// found before, which exact predicates rule out; the caller reports it.
-    bool run(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> nodes, std::span<const SweepEdge> edges,
-             std::span<const Cut> cuts, TexelFrame frame, SweepResult& out);
+    /// cuts: ascending, disjoint ranges of nodes on one level each; that level ends a band and starts the next, edges
+    /// along it belong to neither. False: the order of edges at a node contradicts the order found before, which exact
+    /// predicates rule out; the caller reports it.
+    bool run(std::span<const SubEdge> sub_edges, const SweepGraph& graph, std::span<const Cut> cuts, TexelFrame frame,
+             SweepResult& out);
 
   private:
     struct Gap {
@@ -97,7 +105,9 @@ class Sweep {
     void rank_top_line();
     void collect_outgoing(std::uint32_t k);
     bool left_of(std::uint32_t e, std::uint32_t f);
-    int order_on_levels(std::uint32_t e, std::uint32_t f, Axis axis, double lo, double hi);
+    bool left_of_within(std::uint32_t e, std::uint32_t f);
+    int order_between(std::uint32_t e, std::uint32_t f, Axis axis, std::uint32_t from, std::uint32_t to);
+    int level_edge_against(std::uint32_t e, std::uint32_t f);
     std::uint32_t new_face();
     Gap open_gap(std::uint32_t face, std::size_t position, std::uint32_t top_node);
     void close_gap(const Gap& gap, std::uint32_t bottom_node);
@@ -106,9 +116,11 @@ class Sweep {
     [[nodiscard]] const GridNode& node(std::uint32_t k) const { return map_.node(nodes_[k]); }
 
     const PlanarMap& map_;
+    NodeOrder& order_;
     PlanarStats& stats_;
     std::span<const SubEdge> sub_edges_;
     std::span<const std::uint32_t> nodes_;
+    std::span<const NodeRank> ranks_;
     std::span<const SweepEdge> edges_;
     TexelFrame frame_;
     SweepResult* out_ = nullptr;
@@ -121,6 +133,7 @@ class Sweep {
     std::vector<bool> level_on_cut_; ///< per edge: lies on a band line
     std::uint32_t band_ = 0;
     bool seen_first_slab_ = false, has_cuts_ = false;
+    bool decided_ = true; ///< no comparison of this sweep was left open
 };
 
 } // namespace fetexc

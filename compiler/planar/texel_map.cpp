@@ -19,25 +19,24 @@ ResultId ResultLookup::operator()(const Windings& w) {
     return last_;
 }
 
-void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen,
-                          std::vector<std::uint32_t>& nodes, std::vector<SweepEdge>& edges) const {
-    nodes.clear(), edges.clear();
+void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, SweepGraph& out) {
+    out.nodes.clear(), out.edges.clear();
     for (std::uint32_t s : chosen) {
-        nodes.push_back(sub_edges[s].n0);
-        nodes.push_back(sub_edges[s].n1);
+        out.nodes.push_back(sub_edges[s].n0);
+        out.nodes.push_back(sub_edges[s].n1);
     }
-    const auto order = [&](std::uint32_t a, std::uint32_t b) {
-        const GridNode &p = map_.node(a), &q = map_.node(b);
-        return before(p, q) || (!before(q, p) && a < b);
-    };
-    std::sort(nodes.begin(), nodes.end(), order);
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    order_.sort(out.nodes);
+    order_.rank(out.nodes, out.ranks);
+    index_.clear();
+    for (std::uint32_t k = 0; k < out.nodes.size(); ++k)
+        index_.emplace_back(out.nodes[k], k);
+    std::sort(index_.begin(), index_.end());
     const auto index = [&](std::uint32_t n) {
-        return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), n, order) - nodes.begin());
+        return std::lower_bound(index_.begin(), index_.end(), std::pair(n, 0u))->second;
     };
     for (std::uint32_t s : chosen) {
         const std::uint32_t a = index(sub_edges[s].n0), b = index(sub_edges[s].n1);
-        edges.push_back({s, std::min(a, b), std::max(a, b)});
+        out.edges.push_back({s, std::min(a, b), std::max(a, b), a < b});
     }
 }
 
@@ -47,8 +46,8 @@ bool TexelMapper::analyse(std::uint32_t i, std::uint32_t j, const Windings& corn
     out.sub_edges = map_.sub_edges(i, j);
     all_.resize(out.sub_edges.size());
     std::iota(all_.begin(), all_.end(), 0u);
-    collect(out.sub_edges, all_, out.nodes, out.edges);
-    if (!sweep_.run(out.sub_edges, out.nodes, out.edges, {}, out.frame, out.sweep)) return false;
+    collect(out.sub_edges, all_, out.graph);
+    if (!sweep_.run(out.sub_edges, out.graph, {}, out.frame, out.sweep)) return false;
     stats_.trapezoids += out.sweep.trapezoids.size();
     return assign_results(corner, out);
 }
@@ -75,8 +74,9 @@ bool TexelMapper::assign_results(const Windings& corner, TexelMap& out) {
             const Portion& portion = s.portions[p];
             const std::uint32_t to = s.face(direction > 0 ? portion.right : portion.left);
             if (known[to]) continue;
-            const SubEdge& sub = out.sub_edges[out.edges[portion.edge].sub];
-            const std::int32_t sign = direction * map_.sweep_sign(sub);
+            const SweepEdge& edge = out.graph.edges[portion.edge];
+            const SubEdge& sub = out.sub_edges[edge.sub];
+            const std::int32_t sign = edge.down ? direction : -direction;
             windings[to] = windings[face];
             for (const Contribution& c : map_.contributions_of(sub))
                 add_winding(windings[to], c.shape, sign * c.winding);

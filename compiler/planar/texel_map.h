@@ -13,8 +13,7 @@ struct TexelMap {
     std::uint32_t i = 0, j = 0;
     TexelFrame frame;
     std::span<const SubEdge> sub_edges;
-    std::vector<std::uint32_t> nodes; ///< map nodes, in sweep order
-    std::vector<SweepEdge> edges;
+    SweepGraph graph; ///< of all sub-edges
     SweepResult sweep;
     std::vector<ResultId> results; ///< per face id (same for united faces)
 
@@ -39,15 +38,14 @@ class ResultLookup {
 class TexelMapper {
   public:
     TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats)
-        : map_(map), stats_(stats), sweep_(map, stats), lookup_(scene, compositor) {}
+        : map_(map), stats_(stats), order_(map), sweep_(map, order_, stats), lookup_(scene, compositor) {}
 
     /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the
     /// caller).
     bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
 
-    /// Nodes of a set of sub-edges in sweep order, and the edges between them.
-    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen,
-                 std::vector<std::uint32_t>& nodes, std::vector<SweepEdge>& edges) const;
+    /// Nodes of a set of sub-edges in exact order, and the edges between them.
+    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, SweepGraph& out);
 
     Sweep& sweep() { return sweep_; }
     ResultLookup& lookup() { return lookup_; }
@@ -57,9 +55,11 @@ class TexelMapper {
 
     const PlanarMap& map_;
     PlanarStats& stats_;
+    NodeOrder order_;
     Sweep sweep_;
     ResultLookup lookup_;
     std::vector<std::uint32_t> all_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> index_; ///< node → position
 };
 
 } // namespace fetexc

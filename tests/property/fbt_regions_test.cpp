@@ -45,9 +45,14 @@ TEST(FbtRegions, FoundByLongRuns) {
     };
     const std::vector<std::pair<std::uint64_t, GridSize>> cases = {
         {12544, {39, 26}}, // a zero handle meets lines at a flat angle: crossings known to 1e-4 of a lattice step only
-        {34343, {10, 43}}, // a curve and a line nearly tangent: a crossing enclosed by 40,000 steps
-        {39210, {26, 0}},  // the same near an end
+        {34343, {6, 43}},  // a curve and a line nearly tangent: a crossing enclosed by 40,000 steps
+        {39210, {39, 0}},  // the same near an end
         {51598, {57, 2}},  // two contacts of one vertex in the wrong order along a curve that rests there
+        {54378, {20, 0}},  // the lowest point of a curve and a crossing 10^-9 steps above it
+        {58047, {42, 0}},  // the same
+        {314, {55, 10}},   // a curve's continuation beyond its zero handle passes 10^-27 of a parameter away
+        {706, {52, 29}},   // crossings just beyond the end of a curve
+        {77327, {64, 1}},  {79446, {23, 0}}, {80744, {64, 11}}, {91444, {58, 51}}, {93384, {37, 0}}, {99881, {23, 2}},
     };
     for (const auto& [seed, size] : cases)
         expect_right_regions(mixed(seed), size, seed);

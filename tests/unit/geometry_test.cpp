@@ -295,8 +295,8 @@ TEST(CompareExact, SeparatesStretchesFarBelowDoubleResolution) {
     const std::int64_t n = std::int64_t{1} << 40;
     const Curve a = curve({{0, 0}, {n, n}}), b = curve({{0, 0}, {n - 1, n}});
     const Stretch sa = stretches(a)[0], sb = stretches(b)[0];
-    EXPECT_EQ(compare_x_at_y_exact(sa, sb, 0x1p-40), 1) << "2^-80 apart";
-    EXPECT_EQ(compare_x_at_y_exact(sb, sa, 0x1p-40), -1);
+    EXPECT_EQ(compare_positions_exact(sa, sb, Axis::Y, mpq_class(0x1p-40)), 1) << "2^-80 apart";
+    EXPECT_EQ(compare_positions_exact(sb, sa, Axis::Y, mpq_class(0x1p-40)), -1);
 }
 
 } // namespace
