@@ -59,9 +59,8 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
-/// Lattice steps: a point computed by exact root isolation is on an arc when its distance along x at equal y is below
-/// this. The point lies on the arc's algebraic curve exactly; another branch can't be that close and be told apart by
-/// any output.
+/// Lattice steps, as a negative power of two: points of two curves, each known to lie on the other's algebraic curve
+/// and enclosed to about 2^-140, are one point when nearer than this.
 inline constexpr int kSameBranchBits = 60;
 
 /// Lattice steps; end points closer than this are one vertex: 2^-20 of the extent of 2^26 steps (DESIGN §3).

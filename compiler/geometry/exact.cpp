@@ -8,12 +8,7 @@
 namespace fetexc {
 namespace {
 
-/// Closed rational interval.
-struct RationalInterval {
-    mpq_class lo, hi;
-};
-
-Interval to_double(const RationalInterval& v) {
+Interval to_double(const RationalRange& v) {
     // get_d truncates towards zero: one unit each way encloses.
     return {widen_down(v.lo.get_d()), widen_up(v.hi.get_d())};
 }
@@ -21,7 +16,7 @@ Interval to_double(const RationalInterval& v) {
 Axis other(Axis axis) { return axis == Axis::X ? Axis::Y : Axis::X; }
 
 /// Enclosure of p over [lo,hi]: value in the middle plus a derivative bound times the half width (|t| ≤ 2).
-RationalInterval evaluate_over(const Polynomial& p, const RationalInterval& t) {
+RationalRange evaluate_over(const Polynomial& p, const RationalRange& t) {
     const mpq_class mid = (t.lo + t.hi) / 2, half = (t.hi - t.lo) / 2;
     mpq_class bound = 0, power = 1;
     const mpq_class reach = std::max(mpq_class(abs(t.lo)), mpq_class(abs(t.hi)));
@@ -34,7 +29,7 @@ RationalInterval evaluate_over(const Polynomial& p, const RationalInterval& t) {
 }
 
 /// Parameter of the stretch where the coordinate passes v, to within 2^-bits of the range; clamped to the range.
-RationalInterval bisect(const Stretch& s, const Polynomial& p, bool increasing, const mpq_class& v, int bits) {
+RationalRange bisect(const Stretch& s, const Polynomial& p, bool increasing, const mpq_class& v, int bits) {
     mpq_class lo(s.range.lo), hi(s.range.hi);
     for (int k = 0; k < bits; ++k) {
         const mpq_class mid = (lo + hi) / 2;
@@ -50,8 +45,8 @@ int compare_at(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_cl
     const bool a_up = level_axis == Axis::Y ? a.y_increasing : a.x_increasing;
     const bool b_up = level_axis == Axis::Y ? b.y_increasing : b.x_increasing;
     for (int bits = budget::kRefineBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
-        const RationalInterval va = evaluate_over(av, bisect(a, al, a_up, level, bits));
-        const RationalInterval vb = evaluate_over(bv, bisect(b, bl, b_up, level, bits));
+        const RationalRange va = evaluate_over(av, bisect(a, al, a_up, level, bits));
+        const RationalRange vb = evaluate_over(bv, bisect(b, bl, b_up, level, bits));
         if (va.hi < vb.lo) return -1;
         if (va.lo > vb.hi) return 1;
     }
@@ -146,28 +141,42 @@ bool same_support(const Curve& a, const Curve& b, SupportMap& map) {
     return true;
 }
 
-ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits) {
-    const Polynomial r = eliminate(*a.curve, *b.curve);
-    if (r.empty()) return ExactOutcome::CommonComponent;
-    const Polynomial ax = power_basis(*a.curve, Axis::X), ay = power_basis(*a.curve, Axis::Y);
-    // B as a graph over the axis along which it runs farther.
-    const bool over_y =
-        std::fabs(value_double(*b.curve, Axis::Y, b.range.hi) - value_double(*b.curve, Axis::Y, b.range.lo)) >=
-        std::fabs(value_double(*b.curve, Axis::X, b.range.hi) - value_double(*b.curve, Axis::X, b.range.lo));
-    const Axis level = over_y ? Axis::Y : Axis::X;
-    const Polynomial bl = power_basis(*b.curve, level), bv = power_basis(*b.curve, other(level));
-    const bool increasing = over_y ? b.y_increasing : b.x_increasing;
-    const mpq_class slack(mpz_class(1), mpz_class(1) << budget::kSameBranchBits);
+namespace {
+
+/// Where the other curve's algebraic curve is met, and the point there.
+struct Candidate {
+    RationalRange t, x, y;
+};
+
+std::vector<Candidate> candidates(const Polynomial& resultant, const Stretch& s) {
+    const Polynomial px = power_basis(*s.curve, Axis::X), py = power_basis(*s.curve, Axis::Y);
+    std::vector<Candidate> out;
     for (const auto& [lo, hi] :
-         isolate_roots(r, mpq_class(a.range.lo), mpq_class(a.range.hi), 2 * budget::kRefineBits)) {
-        const RationalInterval s{lo, hi};
-        const RationalInterval at = evaluate_over(over_y ? ay : ax, s), value = evaluate_over(over_y ? ax : ay, s);
-        const RationalInterval t{bisect(b, bl, increasing, increasing ? at.lo : at.hi, 2 * budget::kRefineBits).lo,
-                                 bisect(b, bl, increasing, increasing ? at.hi : at.lo, 2 * budget::kRefineBits).hi};
-        const RationalInterval reached = evaluate_over(bl, t), crossing = evaluate_over(bv, t);
-        if (reached.lo > at.hi + slack || reached.hi < at.lo - slack) continue;         // beyond an end of the stretch
-        if (crossing.lo > value.hi + slack || crossing.hi < value.lo - slack) continue; // another branch
-        hits.push_back({to_double(s), to_double(t)});
+         isolate_roots(resultant, mpq_class(s.range.lo), mpq_class(s.range.hi), 2 * budget::kRefineBits)) {
+        const RationalRange t{lo, hi};
+        out.push_back({t, evaluate_over(px, t), evaluate_over(py, t)});
+    }
+    return out;
+}
+
+bool near(const RationalRange& a, const RationalRange& b) {
+    static const mpq_class slack(mpz_class(1), mpz_class(1) << budget::kSameBranchBits);
+    return a.lo <= b.hi + slack && b.lo <= a.hi + slack;
+}
+
+} // namespace
+
+ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits) {
+    const Polynomial ra = eliminate(*a.curve, *b.curve);
+    if (ra.empty()) return ExactOutcome::CommonComponent;
+    // Either curve's roots include those of branches that the other's parameter range leaves out: the points tell.
+    const std::vector<Candidate> on_a = candidates(ra, a);
+    if (on_a.empty()) return ExactOutcome::Done;
+    const std::vector<Candidate> on_b = candidates(eliminate(*b.curve, *a.curve), b);
+    for (const Candidate& s : on_a) {
+        for (const Candidate& t : on_b) {
+            if (near(s.x, t.x) && near(s.y, t.y)) hits.push_back({to_double(s.t), to_double(t.t), {s.t, t.t}});
+        }
     }
     return ExactOutcome::Done;
 }
@@ -191,7 +200,8 @@ std::vector<mpz_class> double_point_polynomial(const Curve& c) {
 std::optional<ExactHit> double_point(const Curve& c) {
     const auto roots = isolate_roots(double_point_polynomial(c), 0, 1, 2 * budget::kRefineBits);
     if (roots.size() != 2) return {};
-    return ExactHit{to_double({roots[0].first, roots[0].second}), to_double({roots[1].first, roots[1].second})};
+    const RationalRange s{roots[0].first, roots[0].second}, t{roots[1].first, roots[1].second};
+    return ExactHit{to_double(s), to_double(t), {s, t}};
 }
 
 int compare_positions_exact(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level) {
@@ -202,7 +212,7 @@ int compare_position_exact(const Stretch& a, Axis level_axis, const mpq_class& l
     const Polynomial al = power_basis(*a.curve, level_axis), av = power_basis(*a.curve, other(level_axis));
     const bool up = level_axis == Axis::Y ? a.y_increasing : a.x_increasing;
     for (int bits = budget::kRefineBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
-        const RationalInterval v = evaluate_over(av, bisect(a, al, up, level, bits));
+        const RationalRange v = evaluate_over(av, bisect(a, al, up, level, bits));
         if (v.hi < value) return -1;
         if (v.lo > value) return 1;
     }

@@ -32,8 +32,17 @@ struct SupportMap {
 /// Exact; true only for degree ≥ 2 (lines are matched by planar/arcs).
 bool same_support(const Curve& a, const Curve& b, SupportMap& map);
 
+struct RationalRange {
+    mpq_class lo, hi;
+};
+/// Enclosures of a contact's parameters on a and on b, far narrower than doubles are.
+struct NarrowContact {
+    RationalRange s, t;
+};
+
 struct ExactHit {
     Interval s, t; ///< parameters on a and on b
+    NarrowContact narrow;
 };
 
 enum class ExactOutcome { Done, CommonComponent };

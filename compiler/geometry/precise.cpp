@@ -33,7 +33,7 @@ Interval enclose(const mpz_class& v, int bits) {
 
 Interval range_of(const Dyadic& t) {
     const Interval mid = enclose(t.value, t.bits);
-    return {std::max(0.0, widen_down(mid.lo - t.radius)), std::min(1.0, widen_up(mid.hi + t.radius))};
+    return {widen_down(mid.lo - t.radius), widen_up(mid.hi + t.radius)};
 }
 
 /// p(value·2^-bits)·2^(scale·bits), exact; degree ≤ scale.
@@ -254,14 +254,8 @@ std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, cons
 
 FixedPoint fixed(IntPoint p) { return {to_fixed(p.x), to_fixed(p.y)}; }
 
-std::optional<FixedPoint> fixed_contact(const Curve& a, const Curve& b, const Contact& c) {
-    ContactRefiner refiner(a, b, budget::kFixedParameterBits);
-    if (refiner.run(c)) return fixed_at(a, refiner.s());
-    // Tangent: no certificate can exist. The root of the resultant, which CGAL isolates, is the parameter on a.
-    const auto roots =
-        isolate_roots(eliminate(a, b), mpq_class(c.s.lo), mpq_class(c.s.hi), budget::kFixedParameterBits);
-    if (roots.size() != 1) return {};
-    mpq_class scaled = roots[0].first;
+FixedPoint fixed_contact(const Curve& a, const NarrowContact& c) {
+    mpq_class scaled = (c.s.lo + c.s.hi) / 2;
     mpq_mul_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), budget::kFixedParameterBits);
     return fixed_at(a, {mpz_class(scaled.get_num() / scaled.get_den()), 0, budget::kFixedParameterBits});
 }

@@ -34,18 +34,12 @@ struct FixedPoint {
 };
 
 /// Enclosures of both parameters of a certified contact, about 2^-170 wide. None when it is tangent.
-struct RationalRange {
-    mpq_class lo, hi;
-};
-struct NarrowContact {
-    RationalRange s, t;
-};
 std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, const Contact& c);
 
 /// Rounded to the nearest multiple of 2^-kFixedBits, after errors below it. None when the enclosure doesn't tell which
 /// point is meant.
 FixedPoint fixed(IntPoint p);
-std::optional<FixedPoint> fixed_contact(const Curve& a, const Curve& b, const Contact& c);
+FixedPoint fixed_contact(const Curve& a, const NarrowContact& c);
 std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t);
 std::optional<FixedPoint> fixed_extremum(const Curve& c, const Interval& t);
 

@@ -10,8 +10,8 @@ namespace fetexc {
 
 int ArcOrder::compare(const Arc& arc, const OnArc& p, const OnArc& q) {
     if (same_.find(p.vertex) == same_.find(q.vertex)) return 0;
-    const std::optional<int> c = compare_along(set_, arc, set_.vertices[p.vertex], p.t, set_.vertices[q.vertex], q.t,
-                                               stats_.exact_comparisons);
+    const std::optional<int> c =
+        compare_along(set_, arc, set_.vertices[p.vertex], p.t, set_.vertices[q.vertex], q.t, stats_.exact_comparisons);
     consistent_ = consistent_ && c.has_value();
     return c.value_or(0);
 }

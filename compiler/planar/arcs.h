@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct Vertex {
     Interval x, y;
     bool integral = false;
     IntPoint point;
-    std::uint32_t a = kNone, b = kNone; ///< not integral: curves that cross there; b = kNone: an extremum of a
-    Interval s, t;                      ///< its parameters on a and b
+    std::uint32_t a = kNone, b = kNone;          ///< not integral: curves that cross there; b = kNone: an extremum of a
+    Interval s, t;                               ///< its parameters on a and b
+    std::shared_ptr<const NarrowContact> narrow; ///< the same, of crossings that exact arithmetic found
 };
 
 /// x- and y-monotone stretch between two vertices.

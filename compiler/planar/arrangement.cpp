@@ -26,8 +26,8 @@ struct Bounds {
 struct PairContact {
     std::uint32_t a = 0, b = 0;
     Contact at;
-    PointEnclosure point; ///< of a new one
     std::uint32_t vertex = kNone;
+    Vertex crossing; ///< the new one
 };
 
 /// What one chunk of pairs found; chunks are joined in order.
@@ -46,13 +46,6 @@ Bounds bounds_of(const ArcSet& set, const Arc& a) {
 bool within(const Interval& a, const Interval& b) { return b.lo <= a.lo && a.hi <= b.hi; }
 bool flat(const Interval& v) { return v.lo == v.hi; }
 
-Vertex crossing_vertex(const Arc& a, const Arc& b, const Contact& c, const PointEnclosure& p) {
-    Vertex v;
-    v.x = p.x, v.y = p.y;
-    v.a = a.curve, v.b = b.curve, v.s = c.s, v.t = c.t;
-    return v;
-}
-
 class PairTest {
   public:
     PairTest(const ArcSet& set, const std::vector<Bounds>& bounds, ChunkResult& out)
@@ -70,13 +63,13 @@ class PairTest {
             ++out_.certified;
         } else if (a.curve == b.curve) {
             ++out_.exact;
-            cross_itself(a, b);
+            cross_itself(ia, ib);
         } else {
             ++out_.exact;
-            decide_exactly(a, b, sa, sb);
+            decide_exactly(ia, ib, sa, sb);
         }
         for (const Contact& c : found_)
-            add(ia, ib, c);
+            add(ia, ib, c, nullptr);
     }
 
   private:
@@ -111,11 +104,12 @@ class PairTest {
             if (!hit) continue;
             const Contact c = end_is_a ? Contact{t, *hit} : Contact{*hit, t};
             known_.push_back(c);
-            out_.contacts.push_back({ia, ib, c, {}, v});
+            out_.contacts.push_back({ia, ib, c, v, {}});
         }
     }
 
-    void decide_exactly(const Arc& a, const Arc& b, const Stretch& sa, const Stretch& sb) {
+    void decide_exactly(std::uint32_t ia, std::uint32_t ib, const Stretch& sa, const Stretch& sb) {
+        const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
         SupportMap map;
         if (same_support(set_.curves[a.curve], set_.curves[b.curve], map)) {
             out_.shared.push_back({std::min(a.curve, b.curve), std::max(a.curve, b.curve)});
@@ -124,33 +118,35 @@ class PairTest {
         std::vector<ExactHit> hits;
         intersect_exact(sa, sb, hits);
         for (const ExactHit& h : hits)
-            found_.push_back({h.s, h.t}); // those that are known turn out to be one vertex with it
+            add(ia, ib, {h.s, h.t}, &h.narrow); // those that are known turn out to be one vertex with it
     }
 
     /// Two stretches of one cubic: its double point is the only one they can share, beside an end.
-    void cross_itself(const Arc& a, const Arc& b) {
-        const std::optional<ExactHit> p = double_point(set_.curves[a.curve]);
+    void cross_itself(std::uint32_t ia, std::uint32_t ib) {
+        const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
+        std::optional<ExactHit> p = double_point(set_.curves[a.curve]);
         if (!p) return;
-        const bool a_first = a.t0.mid() < b.t0.mid();
-        const Contact c = a_first ? Contact{p->s, p->t} : Contact{p->t, p->s};
-        const bool inside = c.s.overlaps({a.t0.lo, a.t1.hi}) && c.t.overlaps({b.t0.lo, b.t1.hi});
-        if (inside) found_.push_back(c);
+        if (a.t0.mid() > b.t0.mid()) std::swap(p->s, p->t), std::swap(p->narrow.s, p->narrow.t);
+        const bool inside = p->s.overlaps({a.t0.lo, a.t1.hi}) && p->t.overlaps({b.t0.lo, b.t1.hi});
+        if (inside) add(ia, ib, {p->s, p->t}, &p->narrow);
     }
 
-    void add(std::uint32_t ia, std::uint32_t ib, Contact c) {
+    void add(std::uint32_t ia, std::uint32_t ib, Contact c, const NarrowContact* narrow) {
         const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
         const PointEnclosure p = contact_point(set_.curves[a.curve], set_.curves[b.curve], c);
-        const Vertex crossing = crossing_vertex(a, b, c, p);
+        Vertex crossing;
+        crossing.x = p.x, crossing.y = p.y;
+        crossing.a = a.curve, crossing.b = b.curve, crossing.s = c.s, crossing.t = c.t;
+        if (narrow != nullptr) crossing.narrow = std::make_shared<const NarrowContact>(*narrow);
         if (beyond_an_end(a, crossing, c.s) || beyond_an_end(b, crossing, c.t)) return;
         ++out_.crossings;
-        out_.contacts.push_back({ia, ib, c, p, kNone});
+        out_.contacts.push_back({ia, ib, c, kNone, std::move(crossing)});
     }
 
     /// A contact is enclosed in parameters of the whole curves; the arc may end before it.
     bool beyond_an_end(const Arc& arc, const Vertex& crossing, const Interval& t) {
-        return (t.overlaps(arc.t0) &&
-                compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v0], arc.t0, out_) < 0) ||
-               (t.overlaps(arc.t1) && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v1], arc.t1, out_) > 0);
+        return (t.lo <= arc.t0.hi && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v0], arc.t0, out_) < 0) ||
+               (t.hi >= arc.t1.lo && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v1], arc.t1, out_) > 0);
     }
 
     static int compare_on_arc(const ArcSet& set, const Arc& arc, const Vertex& p, const Interval& tp, const Vertex& q,
@@ -205,7 +201,7 @@ void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
     for (PairContact& c : contacts) {
         if (c.vertex != kNone) continue;
         c.vertex = static_cast<std::uint32_t>(set.vertices.size());
-        set.vertices.push_back(crossing_vertex(set.arcs[c.a], set.arcs[c.b], c.at, c.point));
+        set.vertices.push_back(c.crossing);
     }
 }
 

@@ -31,12 +31,19 @@ Polynomial through_point(const Curve& c, IntPoint p) {
     return minus(power_basis(c, x ? Axis::X : Axis::Y), to_mpz(x ? p.x : p.y));
 }
 
+/// A crossing's parameters.
+std::optional<NarrowContact> narrowed(const ArcSet& set, const Vertex& v) {
+    if (v.narrow) return *v.narrow;
+    if (v.a == kNone || v.b == kNone) return {};
+    return narrow_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t});
+}
+
 /// The resultant has a root for every branch that passes: where another is within the enclosure, a narrower one.
 AlgebraicNumber crossing_parameter(const ArcSet& set, const Vertex& v, std::uint32_t curve, const Interval& t) {
     AlgebraicNumber out{eliminate(set.curves[curve], set.curves[v.a == curve ? v.b : v.a]), mpq_class(t.lo),
                         mpq_class(t.hi)};
     if (out.polynomial.size() == 2) return out;
-    if (const auto narrow = narrow_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t})) {
+    if (const auto narrow = narrowed(set, v)) {
         const RationalRange& r = v.a == curve ? narrow->s : narrow->t;
         out.lo = r.lo, out.hi = r.hi;
     }
@@ -55,9 +62,9 @@ Fixed fixed_from(double v) {
 FixedPoint fixed_point(const ArcSet& set, const Vertex& v) {
     if (v.integral) return fixed(v.point);
     std::optional<FixedPoint> p;
-    if (v.a != kNone && v.b != kNone)
-        p = fixed_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t});
-    else if (v.a != kNone)
+    if (const auto narrow = narrowed(set, v))
+        p = fixed_contact(set.curves[v.a], *narrow);
+    else if (v.a != kNone && v.b == kNone)
         p = fixed_extremum(set.curves[v.a], v.s);
     return p ? *p : FixedPoint{fixed_from(v.x.mid()), fixed_from(v.y.mid())};
 }
