@@ -81,6 +81,10 @@ inline constexpr double kHardEdgeGap = 3e-7;
 /// does.
 inline constexpr double kBandMargin = 0x1p-4;
 
+/// Part of a row of an index over y: the row of a coordinate is computed with three roundings of a number of up to 2^13
+/// rows, so a coordinate may land in a row that begins 2^13·3·2^-53 of a row beyond it.
+inline constexpr double kRowSlack = 0x1p-30;
+
 /// Texels; one step of the u16 output grid on [-1/2, 3/2).
 inline constexpr double kOutputStep = 0x1p-15;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
+
 namespace fetexc {
 namespace {
 
@@ -58,7 +60,7 @@ double RowIndex::distance_to_row(double y, std::size_t row) const {
     // the border towards the point; the neighbour's border may be off by a rounding of row_of, hence one row less is
     // assumed
     const double border = y0_ + height_ * static_cast<double>(row < own ? row + 1 : row);
-    return std::max(0.0, std::abs(y - border) - height_ * 1e-9);
+    return std::max(0.0, std::abs(y - border) - height_ * budget::kRowSlack);
 }
 
 } // namespace fetexc

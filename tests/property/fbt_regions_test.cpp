@@ -52,11 +52,16 @@ TEST(FbtRegions, FoundByLongRuns) {
         {58047, {42, 0}},  // the same
         {314, {55, 10}},   // a curve's continuation beyond its zero handle passes 10^-27 of a parameter away
         {706, {52, 29}},   // crossings just beyond the end of a curve
-        {77327, {64, 1}},   {79446, {23, 0}}, {80744, {64, 11}}, {91444, {58, 51}},
-        {93384, {37, 0}},   {99881, {23, 2}}, {200581, {16, 2}}, // a zero handle ends on a line's end and crosses the
-                                                                 // line 10^-17 of a parameter before
-        {206572, {11, 24}},                                      // tangent to a line in an extremum
-        {207824, {65, 16}},                                      // crossings just before the start of a curve
+        {77327, {64, 1}},
+        {79446, {23, 0}},
+        {80744, {64, 11}},
+        {91444, {58, 51}},
+        {93384, {37, 0}},
+        {99881, {23, 2}},
+        {200581, {16, 2}},  // a zero handle ends on a line's end and crosses the
+                            // line 10^-17 of a parameter before
+        {206572, {11, 24}}, // tangent to a line in an extremum
+        {207824, {65, 16}}, // crossings just before the start of a curve
     };
     for (const auto& [seed, size] : cases)
         expect_right_regions(mixed(seed), size, seed);
