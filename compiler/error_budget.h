@@ -59,6 +59,10 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
+/// Curve parameter: ranges of stretches are outer enclosures, a few roundings wide; what is looked for just beside them
+/// is within this.
+inline constexpr double kBesideRange = 0x1p-40;
+
 /// Lattice steps, as a negative power of two: points of two curves, each known to lie on the other's algebraic curve
 /// and enclosed to about 2^-140, are one point when nearer than this.
 inline constexpr int kSameBranchBits = 60;

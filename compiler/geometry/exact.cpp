@@ -181,6 +181,17 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
     return ExactOutcome::Done;
 }
 
+std::optional<Interval> parameter_of_point(const Curve& c, IntPoint p, const Interval& range) {
+    const bool x_first = c.x.magnitude >= c.y.magnitude;
+    const Polynomial px = minus(power_basis(c, Axis::X), to_mpz(p.x)), py = minus(power_basis(c, Axis::Y), to_mpz(p.y));
+    const Polynomial &along = x_first ? px : py, &across = x_first ? py : px;
+    const mpq_class lo = mpq_class(range.lo) - budget::kBesideRange, hi = mpq_class(range.hi) + budget::kBesideRange;
+    for (const auto& [t0, t1] : isolate_roots(along, lo, hi, 2 * budget::kRefineBits)) {
+        if (sign_at(across, {along, t0, t1}) == 0) return to_double({t0, t1});
+    }
+    return {};
+}
+
 std::vector<mpz_class> double_point_polynomial(const Curve& c) {
     // (C(s) − C(t))/(s − t) = 0: C3(σ² − π) + C2·σ + C1 = 0 with σ = s + t, π = s·t; crossed with C3 it is linear in σ.
     const Vectors v(c);

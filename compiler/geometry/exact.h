@@ -54,6 +54,9 @@ ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<Exa
 /// rational; a cusp or an isolated point gives none).
 std::optional<ExactHit> double_point(const Curve& c);
 
+/// The parameter, within the range or just beside it, at which the curve passes an integer point. None when it doesn't.
+std::optional<Interval> parameter_of_point(const Curve& c, IntPoint p, const Interval& range);
+
 /// Quadratic whose roots are those two parameters; empty when there is no such point.
 std::vector<mpz_class> double_point_polynomial(const Curve& c);
 

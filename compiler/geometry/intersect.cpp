@@ -366,8 +366,11 @@ std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p) {
     const Interval t = over_y ? parameter_at(c, Axis::Y, s.range, s.y_increasing, y)
                               : parameter_at(c, Axis::X, s.range, s.x_increasing, x);
     if (!value_over(c, over_y ? Axis::X : Axis::Y, t).contains(over_y ? x : y)) return {};
-    if (c.degree == 1 ? cross(c.p[0], c.p[1], p) != 0 : implicit_sign(c, p) != 0) return {};
-    return t;
+    if (c.degree == 1) return cross(c.p[0], c.p[1], p) == 0 ? std::optional(t) : std::nullopt;
+    if (implicit_sign(c, p) != 0) return {};
+    // Inside a stretch of a curve that doesn't cross itself, that is proof.
+    if (c.degree == 2 && t.lo > s.range.lo && t.hi < s.range.hi) return t;
+    return parameter_of_point(c, p, s.range);
 }
 
 } // namespace fetexc

@@ -101,7 +101,7 @@ class PairTest {
             const Vertex& vertex = set_.vertices[v];
             if (!vertex.integral || v == on.v0 || v == on.v1) continue;
             const std::optional<Interval> hit = point_on_stretch(set_.stretch_of(on), vertex.point);
-            if (!hit) continue;
+            if (!hit || beyond_an_end(on, vertex, *hit)) continue;
             const Contact c = end_is_a ? Contact{t, *hit} : Contact{*hit, t};
             known_.push_back(c);
             out_.contacts.push_back({ia, ib, c, v, {}});

@@ -25,10 +25,13 @@ Polynomial extremum_polynomial(const Curve& c, const Interval& t) {
     return {};
 }
 
-/// Passes through p there: the coordinate along which the curve reaches farther.
-Polynomial through_point(const Curve& c, IntPoint p) {
-    const bool x = c.x.magnitude >= c.y.magnitude;
-    return minus(power_basis(c, x ? Axis::X : Axis::Y), to_mpz(x ? p.x : p.y));
+/// The curve passes p at one parameter within t: the coordinate that takes p's value only there.
+Polynomial through_point(const Curve& c, IntPoint p, const Interval& t) {
+    const bool x_first = c.x.magnitude >= c.y.magnitude;
+    const Polynomial x = minus(power_basis(c, Axis::X), to_mpz(p.x)), y = minus(power_basis(c, Axis::Y), to_mpz(p.y));
+    const Polynomial &first = x_first ? x : y, &second = x_first ? y : x;
+    if (first.size() == 2 || second.empty()) return first;
+    return isolate_roots(first, mpq_class(t.lo), mpq_class(t.hi), 1).size() == 1 ? first : second;
 }
 
 /// A crossing's parameters.
@@ -101,7 +104,7 @@ AlgebraicNumber parameter_of(const ArcSet& set, const Vertex& v, std::uint32_t c
     const Curve& c = set.curves[curve];
     AlgebraicNumber out{{}, mpq_class(t.lo), mpq_class(t.hi)};
     if (v.integral)
-        out.polynomial = through_point(c, v.point);
+        out.polynomial = through_point(c, v.point, t);
     else if (v.b == kNone)
         out.polynomial = extremum_polynomial(c, t);
     else if (v.a == v.b)

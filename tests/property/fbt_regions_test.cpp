@@ -62,6 +62,7 @@ TEST(FbtRegions, FoundByLongRuns) {
                             // line 10^-17 of a parameter before
         {206572, {11, 24}}, // tangent to a line in an extremum
         {207824, {65, 16}}, // crossings just before the start of a curve
+        {302646, {50, 0}},  // a corner on a curve just before its extremum
     };
     for (const auto& [seed, size] : cases)
         expect_right_regions(mixed(seed), size, seed);
