@@ -12,7 +12,7 @@ int ArcOrder::compare(const Arc& arc, const OnArc& p, const OnArc& q) {
     if (same_.find(p.vertex) == same_.find(q.vertex)) return 0;
     const std::optional<int> c =
         compare_along(set_, arc, set_.vertices[p.vertex], p.t, set_.vertices[q.vertex], q.t, stats_.exact_comparisons);
-    consistent_ = consistent_ && c.has_value();
+    if (!c && !conflict_) conflict_ = p.vertex;
     return c.value_or(0);
 }
 
@@ -51,7 +51,8 @@ void ArcOrder::sort(const Arc& arc, std::vector<OnArc>& entries) {
     }
     entries = sorted_;
     const auto is = [&](const OnArc& e, std::uint32_t v) { return same_.find(e.vertex) == same_.find(v); };
-    consistent_ = consistent_ && is(entries.front(), arc.v0) && is(entries.back(), arc.v1);
+    if (!conflict_ && !is(entries.front(), arc.v0)) conflict_ = entries.front().vertex;
+    if (!conflict_ && !is(entries.back(), arc.v1)) conflict_ = entries.back().vertex;
 }
 
 } // namespace fetexc

@@ -3,6 +3,7 @@
 /// shows up on each of them as several contacts at one parameter: comparing along arcs finds every coincidence.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compiler/planar/arcs.h"
@@ -24,8 +25,8 @@ class ArcOrder {
 
     /// Representatives: valid when all arcs are sorted. The smallest vertex of each set.
     [[nodiscard]] std::uint32_t representative(std::uint32_t vertex) { return same_.find(vertex); }
-    /// False: some comparison could not be made, or an arc's ends are not at its ends.
-    [[nodiscard]] bool consistent() const { return consistent_; }
+    /// A vertex that could not be compared with another, or that lies beyond its arc's ends.
+    [[nodiscard]] const std::optional<std::uint32_t>& conflict() const { return conflict_; }
 
   private:
     int compare(const Arc& arc, const OnArc& p, const OnArc& q);
@@ -35,7 +36,7 @@ class ArcOrder {
     PlanarStats& stats_;
     UnionFind same_;
     std::vector<OnArc> sorted_;
-    bool consistent_ = true;
+    std::optional<std::uint32_t> conflict_;
 };
 
 } // namespace fetexc

@@ -35,7 +35,7 @@ struct ChunkResult {
     std::vector<PairContact> contacts;
     std::vector<SharedSupport> shared;
     std::uint64_t certified = 0, exact = 0, crossings = 0, exact_comparisons = 0;
-    bool decided = true;
+    std::optional<Vertex> undecided; ///< a vertex that couldn't be placed
 };
 
 Bounds bounds_of(const ArcSet& set, const Arc& a) {
@@ -152,7 +152,7 @@ class PairTest {
     static int compare_on_arc(const ArcSet& set, const Arc& arc, const Vertex& p, const Interval& tp, const Vertex& q,
                               const Interval& tq, ChunkResult& out) {
         const std::optional<int> c = compare_along(set, arc, p, tp, q, tq, out.exact_comparisons);
-        out.decided = out.decided && c.has_value();
+        if (!c && !out.undecided) out.undecided = p;
         return c.value_or(0);
     }
 
@@ -191,7 +191,7 @@ ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds,
         all.contacts.insert(all.contacts.end(), r.contacts.begin(), r.contacts.end());
         all.shared.insert(all.shared.end(), r.shared.begin(), r.shared.end());
         all.certified += r.certified, all.exact += r.exact, all.crossings += r.crossings;
-        all.exact_comparisons += r.exact_comparisons, all.decided = all.decided && r.decided;
+        all.exact_comparisons += r.exact_comparisons, all.undecided = all.undecided ? all.undecided : r.undecided;
     }
     return all;
 }
@@ -254,8 +254,8 @@ void join_vertices(ArcSet& set, ArcOrder& order) {
     }
 }
 
-/// Cuts the arcs into edges. False: the order of vertices on some arc couldn't be decided.
-bool cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, PlanarStats& stats) {
+/// Cuts the arcs into edges. Returns a vertex whose place on some arc couldn't be decided.
+std::optional<Vertex> cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, PlanarStats& stats) {
     const ArcVertices vertices(out.set, contacts);
     ArcOrder order(out.set, stats);
     std::vector<OnArc> on_arc;
@@ -268,8 +268,11 @@ bool cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, Planar
     for (Edge& e : out.edges)
         e.va = order.representative(e.va), e.vb = order.representative(e.vb);
     join_vertices(out.set, order);
-    return order.consistent() &&
-           std::none_of(out.edges.begin(), out.edges.end(), [](const Edge& e) { return e.va == e.vb; });
+    if (order.conflict()) return out.set.vertices[*order.conflict()];
+    for (const Edge& e : out.edges) {
+        if (e.va == e.vb) return out.set.vertices[e.va];
+    }
+    return {};
 }
 
 } // namespace
@@ -298,14 +301,16 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
 
         add_vertices(out.set, found.contacts);
         pass.exact_comparisons = found.exact_comparisons;
-        const bool decided = cut_arcs(out, found.contacts, pass) && found.decided;
+        std::optional<Vertex> undecided = found.undecided;
+        if (!undecided) undecided = cut_arcs(out, found.contacts, pass);
         pass.box_pairs = pairs.size(), pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;
         pass.vertices = out.set.vertices.size(), pass.edges = out.edges.size();
         stats = pass;
-        if (!decided) {
+        if (undecided) {
             return Error{ErrorClass::Runtime, diag::kPlanarInconsistent,
-                         "the order of crossings along a curve can't be decided; please report this file", ""};
+                         "the order of crossings along a curve can't be decided; please report this file",
+                         grid.texel_name(undecided->x.mid(), undecided->y.mid())};
         }
         return out;
     }

@@ -6,8 +6,10 @@
 /// texels, and some slack.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <string>
 
 #include "compiler/scene/scene.h"
 
@@ -17,6 +19,14 @@ struct Grid {
     std::uint32_t width = 0, height = 0; ///< texels
     std::int64_t kx = 1, ky = 1;         ///< planar = lattice · k
     std::int64_t px = 1, py = 1;         ///< planar units per texel
+
+    /// Texel that holds a point (of the canvas: the nearest), for messages.
+    [[nodiscard]] std::string texel_name(double x, double y) const {
+        const auto index = [](double v, std::int64_t pitch, std::uint32_t n) {
+            return static_cast<std::uint32_t>(std::clamp(v / static_cast<double>(pitch), 0.0, n - 1.0));
+        };
+        return "texel (" + std::to_string(index(x, px, width)) + ", " + std::to_string(index(y, py, height)) + ")";
+    }
 
     [[nodiscard]] std::int64_t right() const { return px * width; }
     [[nodiscard]] std::int64_t bottom() const { return py * height; }

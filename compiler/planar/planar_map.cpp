@@ -45,15 +45,15 @@ class PlanarMap::Builder {
   public:
     Builder(PlanarMap& map, PlanarStats& stats) : map_(map), grid_(map.grid_), stats_(stats) {}
 
-    /// False: a question about a position on the grid couldn't be decided.
-    bool run() {
+    /// Returns a point whose position on the grid couldn't be decided.
+    std::optional<PointEnclosure> run() {
         add_vertices();
         for (std::uint32_t e = 0; e < map_.arrangement_.edges.size(); ++e)
             walk(e);
         sort_side_edges();
         sort_into_texels();
         sort_steps();
-        return decided_;
+        return undecided_;
     }
 
   private:
@@ -75,8 +75,8 @@ class PlanarMap::Builder {
         return n;
     }
 
-    int decide(std::optional<int> side) {
-        decided_ = decided_ && side.has_value();
+    int decide(std::optional<int> side, const Interval& x, const Interval& y) {
+        if (!side && !undecided_) undecided_ = PointEnclosure{x, y};
         return side.value_or(0);
     }
 
@@ -85,7 +85,7 @@ class PlanarMap::Builder {
         map_.nodes_.reserve(set.vertices.size() * 2);
         for (const Vertex& v : set.vertices) {
             const auto side = [&](Axis axis) {
-                return [&, axis](std::int64_t level) { return decide(side_of_level(set, v, axis, level)); };
+                return [&, axis](std::int64_t level) { return decide(side_of_level(set, v, axis, level), v.x, v.y); };
             };
             add_node(v.x, v.y, half_step(v.x, grid_.px, grid_.width, side(Axis::X)),
                      half_step(v.y, grid_.py, grid_.height, side(Axis::Y)));
@@ -128,7 +128,7 @@ class PlanarMap::Builder {
             Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
             const PointEnclosure p = level_point(s, axis, v, t);
             const auto side = [&](std::int64_t other) {
-                return decide(side_of_level(*s.curve, axis, level, t, other));
+                return decide(side_of_level(*s.curve, axis, level, t, other), p.x, p.y);
             };
             HalfStep hx = h, hy = h;
             if (vertical)
@@ -227,7 +227,7 @@ class PlanarMap::Builder {
     PlanarStats& stats_;
     std::vector<Crossing> crossings_;
     std::vector<Piece> pieces_;
-    bool decided_ = true;
+    std::optional<PointEnclosure> undecided_;
 };
 
 Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
@@ -236,9 +236,10 @@ Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigne
     PlanarMap map;
     map.grid_ = grid;
     map.arrangement_ = std::move(arrangement).value();
-    if (!Builder(map, stats).run()) {
+    if (const auto undecided = Builder(map, stats).run()) {
         return Error{ErrorClass::Runtime, diag::kPlanarInconsistent,
-                     "the side of a grid line can't be decided; please report this file", ""};
+                     "the side of a grid line can't be decided; please report this file",
+                     grid.texel_name(undecided->x.mid(), undecided->y.mid())};
     }
     return map;
 }
