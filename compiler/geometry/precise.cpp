@@ -122,8 +122,6 @@ class ContactRefiner {
         double ds = 0, dt = 0;
         for (int k = 0; k < budget::kPreciseSteps; ++k) {
             if (!step(ds, dt)) return false;
-            const double ms = to_double(s_.value, bits_), mt = to_double(t_.value, bits_);
-            if (!c.s.contains(ms) || !c.t.contains(mt)) return false;
             if (ds <= stop_ && dt <= stop_) break;
         }
         s_.radius = 4 * ds + stop_, t_.radius = 4 * dt + stop_;
@@ -151,6 +149,7 @@ class ContactRefiner {
         if (d == 0) return false;
         const Residual f = residual();
         const double es = (-f.x.mid() * gby + f.y.mid() * gbx) / d, et = (gax * f.y.mid() - gay * f.x.mid()) / d;
+        if (!(std::fabs(es) <= 1 && std::fabs(et) <= 1)) return false; // diverges
         s_.value -= to_dyadic(es, bits_), t_.value -= to_dyadic(et, bits_);
         ds = std::fabs(es), dt = std::fabs(et);
         return true;

@@ -63,6 +63,7 @@ TEST(FbtRegions, FoundByLongRuns) {
         {206572, {11, 24}}, // tangent to a line in an extremum
         {207824, {65, 16}}, // crossings just before the start of a curve
         {302646, {50, 0}},  // a corner on a curve just before its extremum
+        {505790, {50, 16}}, // a crossing 10^-18 of a parameter from a curve's end in a grid corner
     };
     for (const auto& [seed, size] : cases)
         expect_right_regions(mixed(seed), size, seed);
