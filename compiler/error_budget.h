@@ -59,6 +59,9 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
+/// Units of 2^-kFixedBits: rounding errs by half a unit, so a difference beyond this has a certain sign.
+inline constexpr int kFixedCertain = 4;
+
 /// Curve parameter: ranges of stretches are outer enclosures, a few roundings wide; what is looked for just beside them
 /// is within this.
 inline constexpr double kBesideRange = 0x1p-40;

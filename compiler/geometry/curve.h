@@ -19,6 +19,7 @@ struct IntPoint {
 };
 
 enum class Axis : std::uint8_t { X, Y };
+inline Axis other(Axis axis) { return axis == Axis::X ? Axis::Y : Axis::X; }
 
 /// One coordinate of a curve: control values relative to the first one, which is exact and kept apart.
 struct Coordinate {

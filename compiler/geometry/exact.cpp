@@ -13,8 +13,6 @@ Interval to_double(const RationalRange& v) {
     return {widen_down(v.lo.get_d()), widen_up(v.hi.get_d())};
 }
 
-Axis other(Axis axis) { return axis == Axis::X ? Axis::Y : Axis::X; }
-
 /// Enclosure of p over [lo,hi]: value in the middle plus a derivative bound times the half width (|t| ≤ 2).
 RationalRange evaluate_over(const Polynomial& p, const RationalRange& t) {
     const mpq_class mid = (t.lo + t.hi) / 2, half = (t.hi - t.lo) / 2;

@@ -38,6 +38,13 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     return trimmed(std::move(out));
 }
 
+Polynomial derivative(const Polynomial& p) {
+    Polynomial out;
+    for (std::size_t i = 1; i < p.size(); ++i)
+        out.push_back(p[i] * static_cast<unsigned long>(i));
+    return out;
+}
+
 Polynomial minus(Polynomial p, const mpz_class& v) {
     if (p.empty()) p.emplace_back(0);
     p[0] -= v;

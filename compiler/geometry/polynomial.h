@@ -18,6 +18,8 @@ Polynomial operator+(const Polynomial& a, const Polynomial& b);
 Polynomial operator-(const Polynomial& a, const Polynomial& b);
 Polynomial operator*(const Polynomial& a, const Polynomial& b);
 
+Polynomial derivative(const Polynomial& p);
+
 /// p − v.
 Polynomial minus(Polynomial p, const mpz_class& v);
 

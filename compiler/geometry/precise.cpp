@@ -170,11 +170,33 @@ class ContactRefiner {
     Dyadic s_, t_;
 };
 
-Polynomial derivative(const Polynomial& p) {
-    Polynomial out;
-    for (std::size_t i = 1; i < p.size(); ++i)
-        out.push_back(p[i] * static_cast<unsigned long>(i));
-    return out;
+/// Twice the signed area of (o, a, b).
+mpz_class area(IntPoint o, IntPoint a, IntPoint b) {
+    return to_mpz(a.x - o.x) * to_mpz(b.y - o.y) - to_mpz(a.y - o.y) * to_mpz(b.x - o.x);
+}
+
+/// Where line b crosses line a.
+mpq_class line_parameter(const Curve& a, const Curve& b) {
+    const mpz_class from = area(b.p[0], b.p[1], a.p[0]), to = area(b.p[0], b.p[1], a.p[1]);
+    mpq_class s(from, from - to);
+    s.canonicalize();
+    return s;
+}
+
+/// Exact quotients, rounded outwards.
+PointEnclosure line_crossing(const Curve& a, const Curve& b) {
+    const mpz_class from = area(b.p[0], b.p[1], a.p[0]), whole = from - area(b.p[0], b.p[1], a.p[1]);
+    const auto at = [&](std::int64_t v0, std::int64_t v1) {
+        if (v0 == v1) return Interval(static_cast<double>(v0));
+        mpz_class n = (from * to_mpz(v1 - v0) + to_mpz(v0) * whole) << 64, q;
+        mpz_fdiv_q(q.get_mpz_t(), n.get_mpz_t(), whole.get_mpz_t());
+        const Interval lo = enclose(q, 64), hi = enclose(q + 1, 64);
+        return Interval(lo.lo, hi.hi);
+    };
+    const PointEnclosure on_a{at(a.p[0].x, a.p[1].x), at(a.p[0].y, a.p[1].y)};
+    // A level or upright partner gives its coordinate exactly.
+    return {b.x.magnitude == 0 ? Interval(static_cast<double>(b.p[0].x)) : on_a.x,
+            b.y.magnitude == 0 ? Interval(static_cast<double>(b.p[0].y)) : on_a.y};
 }
 
 /// None also for extrema along both axes, too near to each other to be told apart.
@@ -212,6 +234,7 @@ FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
 } // namespace
 
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
+    if (a.degree == 1 && b.degree == 1) return line_crossing(a, b);
     const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
     if (plain.width() <= budget::kPointWidth * std::max(size_of(a), size_of(b))) return plain;
     ContactRefiner refiner(a, b, budget::kPreciseBits);
@@ -246,6 +269,10 @@ PointEnclosure extremum_point(const Curve& c, Interval& t) {
 // --- fixed point
 
 std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, const Contact& c) {
+    if (a.degree == 1 && b.degree == 1) {
+        const mpq_class s = line_parameter(a, b), t = line_parameter(b, a);
+        return NarrowContact{{s, s}, {t, t}};
+    }
     ContactRefiner refiner(a, b, budget::kFixedParameterBits);
     if (!refiner.run(c)) return {};
     return NarrowContact{rational_range(refiner.s()), rational_range(refiner.t())};

@@ -9,13 +9,6 @@ Fixed along(const FixedPoint& p, Axis axis) { return axis == Axis::X ? p.x : p.y
 
 int sign_of(Fixed v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
-Polynomial derivative(const Polynomial& p) {
-    Polynomial out;
-    for (std::size_t i = 1; i < p.size(); ++i)
-        out.push_back(p[i] * static_cast<unsigned long>(i));
-    return out;
-}
-
 /// The derivative whose sign changes over t.
 Polynomial extremum_polynomial(const Curve& c, const Interval& t) {
     for (const Axis axis : {Axis::X, Axis::Y}) {
@@ -53,6 +46,46 @@ AlgebraicNumber crossing_parameter(const ArcSet& set, const Vertex& v, std::uint
     return out;
 }
 
+// --- lines: parameters are ratios of integers below 2^91
+
+struct Ratio {
+    Fixed numerator = 0, denominator = 1; ///< denominator > 0
+};
+
+Fixed cross(IntPoint o, IntPoint a, IntPoint b) {
+    return static_cast<Fixed>(a.x - o.x) * (b.y - o.y) - static_cast<Fixed>(a.y - o.y) * (b.x - o.x);
+}
+
+Ratio positive(Fixed n, Fixed d) { return d < 0 ? Ratio{-n, -d} : Ratio{n, d}; }
+
+/// Parameter of a vertex on a line, when it is an integer point or a crossing with another line.
+std::optional<Ratio> ratio_on_line(const ArcSet& set, const Vertex& v, std::uint32_t curve) {
+    const Curve& c = set.curves[curve];
+    if (c.degree != 1) return {};
+    if (v.integral) {
+        const bool x = c.x.magnitude >= c.y.magnitude;
+        return x ? positive(v.point.x - c.p[0].x, c.p[1].x - c.p[0].x)
+                 : positive(v.point.y - c.p[0].y, c.p[1].y - c.p[0].y);
+    }
+    if (v.b == kNone) return {};
+    const Curve& other = set.curves[v.a == curve ? v.b : v.a];
+    if (other.degree != 1) return {};
+    const Fixed from = cross(other.p[0], other.p[1], c.p[0]), to = cross(other.p[0], other.p[1], c.p[1]);
+    return positive(from, from - to);
+}
+
+mpz_class to_integer(Fixed v) {
+    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
+    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
+    return high + low;
+}
+
+int compare(const Ratio& a, const Ratio& b) {
+    if (a.denominator == b.denominator) return sign_of(a.numerator - b.numerator);
+    return cmp(to_integer(a.numerator) * to_integer(b.denominator),
+               to_integer(b.numerator) * to_integer(a.denominator));
+}
+
 } // namespace
 
 Fixed fixed_from(double v) {
@@ -82,21 +115,20 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
     const auto level = static_cast<double>(v);
     if (const int c = compare(along(a, axis), Interval(level)); c != 0) return c;
     if (along(a, axis).lo == along(a, axis).hi) return 0;
-    // Rounding errs by half a unit; beyond a few the sign is certain.
     const Fixed difference = along(fixed_point(set, a), axis) - (static_cast<Fixed>(v) << budget::kFixedBits);
-    if (difference > 4 || difference < -4) return sign_of(difference);
+    if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
     const AlgebraicNumber t = parameter_of(set, a, a.a, a.s);
     return sign_at(minus(power_basis(set.curves[a.a], axis), to_mpz(v)), t);
 }
 
 std::optional<int> side_of_level(const Curve& c, Axis axis, std::int64_t level, const Interval& t, std::int64_t v) {
-    const Axis other = axis == Axis::X ? Axis::Y : Axis::X;
-    if (c.along(other).magnitude == 0) return sign_of(c.along(other).origin - v);
+    const Axis across = other(axis);
+    if (c.along(across).magnitude == 0) return sign_of(c.along(across).origin - v);
     if (const std::optional<FixedPoint> p = fixed_level(c, axis, level, t)) {
-        const Fixed difference = along(*p, other) - (static_cast<Fixed>(v) << budget::kFixedBits);
-        if (difference > 4 || difference < -4) return sign_of(difference);
+        const Fixed difference = along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits);
+        if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
     }
-    return sign_at(minus(power_basis(c, other), to_mpz(v)),
+    return sign_at(minus(power_basis(c, across), to_mpz(v)),
                    {minus(power_basis(c, axis), to_mpz(level)), mpq_class(t.lo), mpq_class(t.hi)});
 }
 
@@ -120,6 +152,8 @@ std::optional<int> compare_along(const ArcSet& set, const Arc& arc, const Vertex
     if (const int c = compare(a.x, b.x); c != 0) return arc.x_increasing ? c : -c;
     if (const int c = compare(a.y, b.y); c != 0) return arc.y_increasing ? c : -c;
     ++exact_comparisons;
+    const std::optional<Ratio> ra = ratio_on_line(set, a, arc.curve), rb = ratio_on_line(set, b, arc.curve);
+    if (ra && rb) return compare(*ra, *rb);
     return compare_numbers(parameter_of(set, a, arc.curve, ta), parameter_of(set, b, arc.curve, tb));
 }
 

@@ -226,7 +226,7 @@ bool rises(const Stretch& s, Axis axis) { return axis == Axis::X ? s.x_increasin
 /// Position along the other axis where the stretch passes the level.
 Interval position_at(const Stretch& s, Axis level_axis, double level) {
     const Interval t = parameter_at(*s.curve, level_axis, s.range, rises(s, level_axis), level);
-    return value_over(*s.curve, level_axis == Axis::Y ? Axis::X : Axis::Y, t);
+    return value_over(*s.curve, other(level_axis), t);
 }
 
 const Interval& range_along(const GridNode& n, Axis axis) { return axis == Axis::X ? n.x_range : n.y_range; }

@@ -57,8 +57,8 @@ std::uint64_t parts(const Drawing& d, FillRule rule, GridSize size, std::uint64_
         return 0;
     }
     const RegionCheck check = check_regions(scene, build.value(), regions, 200, seed);
-    EXPECT_EQ(check.wrong_far, 0u) << "seed " << seed << " " << what << " at " << size.width << "x" << size.height << ": "
-                                   << check.worst;
+    EXPECT_EQ(check.wrong_far, 0u) << "seed " << seed << " " << what << " at " << size.width << "x" << size.height
+                                   << ": " << check.worst;
     return build.value().report.planar.regions_connected;
 }
 
@@ -95,15 +95,28 @@ TEST(IntegerGrid, PartsDoNotDependOnTheTexelGrid) {
 
 TEST(IntegerGrid, PartsDoNotDependOnPlacementDirectionOrParametrisation) {
     const std::vector<std::pair<const char*, Map>> maps = {
-        {"mirrored", [](LatticePoint p) { return LatticePoint{512 - p.x, p.y}; }},
-        {"transposed", [](LatticePoint p) { return LatticePoint{p.y, p.x}; }},
-        {"turned", [](LatticePoint p) { return LatticePoint{p.y, 512 - p.x}; }},
-        {"sheared", [](LatticePoint p) { return LatticePoint{(p.x + p.y) / 2, p.y}; }},
+        {"mirrored",
+         [](LatticePoint p) {
+             return LatticePoint{512 - p.x, p.y};
+         }},
+        {"transposed",
+         [](LatticePoint p) {
+             return LatticePoint{p.y, p.x};
+         }},
+        {"turned",
+         [](LatticePoint p) {
+             return LatticePoint{p.y, 512 - p.x};
+         }},
+        {"sheared",
+         [](LatticePoint p) {
+             return LatticePoint{(p.x + p.y) / 2, p.y};
+         }},
     };
     for (std::uint64_t seed : stress_seeds(200)) {
         // Away from the canvas's border: what that cuts off depends on the placement.
-        const Drawing d =
-            mapped(random_drawing(seed), [](LatticePoint p) { return LatticePoint{64 + p.x * 3 / 4, 64 + p.y * 3 / 4}; });
+        const Drawing d = mapped(random_drawing(seed), [](LatticePoint p) {
+            return LatticePoint{64 + p.x * 3 / 4, 64 + p.y * 3 / 4};
+        });
         const FillRule rule = seed % 2 == 0 ? FillRule::NonZero : FillRule::EvenOdd;
         const GridSize size{static_cast<std::uint32_t>(1 + seed % 5), static_cast<std::uint32_t>(1 + seed % 3)};
         const std::uint64_t expected = parts(d, rule, size, seed, "as drawn");
