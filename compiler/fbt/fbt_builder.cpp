@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/fbt/fbt_builder.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -12,6 +9,7 @@
 
 #include "compiler/diagnostics.h"
 #include "compiler/fbt/row_writer.h"
+#include "compiler/parallel.h"
 
 namespace fetexc {
 namespace {
@@ -76,12 +74,9 @@ class Builder {
         std::vector<ReachabilityRow> reach;
         for (std::uint32_t j = 0; j < g.height; ++j)
             reach.emplace_back(map_, j);
-        tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options_.threads));
-        arena.execute([&] {
-            tbb::parallel_for(0u, g.height, [&](std::uint32_t j) {
-                status[j] = build_row(j, rows[j], reach[j], stats[j]);
-                progress_.row_done();
-            });
+        parallel_for(g.height, options_.threads, [&](std::size_t j) {
+            status[j] = build_row(static_cast<std::uint32_t>(j), rows[j], reach[j], stats[j]);
+            progress_.row_done();
         });
         for (const Status& s : status) {
             if (!s) return s.error();

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/planar/arrangement.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
 
 #include "compiler/diagnostics.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/parallel.h"
 #include "compiler/planar/arc_order.h"
 #include "compiler/planar/box_pairs.h"
 #include "compiler/planar/exact_points.h"
@@ -178,13 +175,10 @@ ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds,
                        const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads) {
     constexpr std::size_t chunk = 1024;
     std::vector<ChunkResult> results((pairs.size() + chunk - 1) / chunk);
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t k) {
-            PairTest test(set, bounds, results[k]);
-            for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
-                test(pairs[i].first, pairs[i].second);
-        });
+    parallel_for(results.size(), threads, [&](std::size_t k) {
+        PairTest test(set, bounds, results[k]);
+        for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
+            test(pairs[i].first, pairs[i].second);
     });
     ChunkResult all;
     for (ChunkResult& r : results) {
