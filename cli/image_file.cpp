@@ -5,9 +5,9 @@
 #include <cassert>
 #include <cmath>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
+#include "cli/png_module.h"
 #include "compiler/diagnostics.h"
 
 namespace fetexc::cli {
@@ -33,18 +33,18 @@ std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image) {
+    // Stays loaded: OpenImageIO's own threads may outlive a call.
+    static void* const module = dlopen(kPngModule, RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) return encode_error(dlerror());
+    const auto encode = reinterpret_cast<EncodePng>(dlsym(module, kEncodePng));
+    if (encode == nullptr) return encode_error("the module has no encoder");
     const std::vector<std::uint8_t> pixels = to_straight_rgba8(image);
-    const auto output = OIIO::ImageOutput::create("picture.png");
-    if (!output) return encode_error(OIIO::geterror());
-    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 4, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // the pixels are straight already: write them as they are
-    spec.attribute("oiio:ColorSpace", "sRGB");
     std::vector<std::uint8_t> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    if (!output->set_ioproxy(&memory)) return encode_error("no writing to memory");
-    if (!output->open("picture.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
-        !output->close())
-        return encode_error(output->geterror());
+    const auto take = [](void* context, const std::uint8_t* data, std::size_t size) {
+        static_cast<std::vector<std::uint8_t>*>(context)->assign(data, data + size);
+    };
+    if (encode(pixels.data(), image.width, image.height, take, &bytes) != 0)
+        return encode_error(std::string(bytes.begin(), bytes.end()));
     return bytes;
 }
 

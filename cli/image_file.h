@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Pictures out: PNG through OpenImageIO.
+/// Pictures out: PNG through OpenImageIO, in a module that is loaded when the first picture is encoded.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The one function of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer than
+/// compiling a small drawing: only what draws a picture loads them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fetexc::cli {
+
+/// Takes the bytes of the file, or on failure the reason (UTF-8).
+using PngSink = void (*)(void* context, const std::uint8_t* bytes, std::size_t size);
+
+/// Straight-alpha sRGB RGBA8, rows from the top, width·height·4 bytes. Calls the sink once; 0: it got the file.
+using EncodePng = int (*)(const std::uint8_t* rgba, std::uint32_t width, std::uint32_t height, PngSink sink,
+                          void* context);
+
+inline constexpr const char* kPngModule = "libfetexc_png.so";
+inline constexpr const char* kEncodePng = "fetexc_encode_png";
+
+} // namespace fetexc::cli
