@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 #include <dlfcn.h>
 
@@ -17,6 +20,18 @@ std::uint8_t to_byte(double value) { return static_cast<std::uint8_t>(std::lroun
 
 Error encode_error(const std::string& why) {
     return {ErrorClass::Runtime, diag::kCannotEncodePicture, "can't encode the PNG: " + why, {}};
+}
+
+/// Beside the program, or where the build puts it beside the test programs; not through the search path, which
+/// sanitizers bend and strangers may write to.
+void* open_module() {
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    if (failed) return nullptr;
+    for (const char* place : {".", "../cli"}) {
+        if (void* module = dlopen((folder / place / kPngModule).c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
+    }
+    return nullptr;
 }
 
 } // namespace
@@ -34,8 +49,8 @@ std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
 
 Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image) {
     // Stays loaded: OpenImageIO's own threads may outlive a call.
-    static void* const module = dlopen(kPngModule, RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) return encode_error(dlerror());
+    static void* const module = open_module();
+    if (module == nullptr) return encode_error(std::string("no ") + kPngModule + " beside the program");
     const auto encode = reinterpret_cast<EncodePng>(dlsym(module, kEncodePng));
     if (encode == nullptr) return encode_error("the module has no encoder");
     const std::vector<std::uint8_t> pixels = to_straight_rgba8(image);

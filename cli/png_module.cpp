@@ -28,8 +28,8 @@ std::string encode(const std::uint8_t* rgba, std::uint32_t width, std::uint32_t 
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) int fetexc_encode_png(const std::uint8_t* rgba, std::uint32_t width,
-                                                                        std::uint32_t height,
-                                                                        fetexc::cli::PngSink sink, void* context) {
+                                                                        std::uint32_t height, fetexc::cli::PngSink sink,
+                                                                        void* context) {
     std::vector<std::uint8_t> bytes;
     std::string error;
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The one function of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer than
-/// compiling a small drawing: only what draws a picture loads them.
+/// The one function of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer
+/// than compiling a small drawing: only what draws a picture loads them.
 #pragma once
 
 #include <cstddef>

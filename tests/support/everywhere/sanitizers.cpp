@@ -12,6 +12,8 @@
 #endif
 
 #ifdef FETEXC_LEAKS_ARE_CHECKED
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libOSMesa\nleak:libEGL\nleak:libGLX\nleak:_dri.so\nleak:libLLVM\nleak:libglfw\nleak:libX11\n";
