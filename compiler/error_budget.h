@@ -59,6 +59,11 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
+/// Bits of the parameters of crossings that those coordinates can't tell apart: where two curves touch, a third may
+/// cross both within the square of a small distance.
+/// (Below 2^10, so that scaled doubles stay finite.)
+inline constexpr int kFineParameterBits = 960;
+
 /// Units of 2^-kFixedBits: rounding errs by half a unit, so a difference beyond this has a certain sign.
 inline constexpr int kFixedCertain = 4;
 

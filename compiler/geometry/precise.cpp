@@ -278,6 +278,14 @@ std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, cons
     return NarrowContact{rational_range(refiner.s()), rational_range(refiner.t())};
 }
 
+std::optional<RationalPoint> rational_contact(const Curve& a, const Curve& b, const Contact& c, int bits) {
+    ContactRefiner refiner(a, b, bits);
+    if (!refiner.run(c)) return {};
+    const RationalRange s = rational_range(refiner.s());
+    const mpq_class mid = (s.lo + s.hi) / 2;
+    return RationalPoint{evaluate(power_basis(a, Axis::X), mid), evaluate(power_basis(a, Axis::Y), mid)};
+}
+
 FixedPoint fixed(IntPoint p) { return {to_fixed(p.x), to_fixed(p.y)}; }
 
 FixedPoint fixed_contact(const Curve& a, const NarrowContact& c) {

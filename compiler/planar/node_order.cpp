@@ -5,6 +5,17 @@
 #include <numeric>
 
 namespace fetexc {
+namespace {
+
+mpq_class to_rational(Fixed v) {
+    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
+    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
+    mpq_class out(high + low);
+    mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), budget::kFixedBits);
+    return out;
+}
+
+} // namespace
 
 const FixedPoint& NodeOrder::fixed(std::uint32_t node) {
     const auto it = fixed_.find(node);
@@ -21,8 +32,23 @@ int NodeOrder::compare(std::uint32_t a, std::uint32_t b, Axis axis) {
     if (const int c = fetexc::compare(u, v); c != 0) return c;
     if (u.lo == u.hi && v.lo == v.hi) return 0;
     const FixedPoint s = fixed(a), t = fixed(b);
+    if (s.x == t.x && s.y == t.y) return compare_finely(a, b, axis);
     const Fixed d = axis == Axis::X ? s.x - t.x : s.y - t.y;
     return d < 0 ? -1 : d > 0 ? 1 : 0;
+}
+
+/// Two crossings that are different points (else they were one node), nearer than 2^-kFixedBits to each other.
+int NodeOrder::compare_finely(std::uint32_t a, std::uint32_t b, Axis axis) {
+    const auto p = map_.rational(a, budget::kFineParameterBits), q = map_.rational(b, budget::kFineParameterBits);
+    if (!p || !q) return 0;
+    fine_[a] = *p, fine_[b] = *q;
+    return axis == Axis::X ? cmp(p->x, q->x) : cmp(p->y, q->y);
+}
+
+mpq_class NodeOrder::coordinate(std::uint32_t node, Axis axis) {
+    if (const auto it = fine_.find(node); it != fine_.end()) return axis == Axis::X ? it->second.x : it->second.y;
+    const FixedPoint& p = fixed(node);
+    return to_rational(axis == Axis::X ? p.x : p.y);
 }
 
 bool NodeOrder::before(std::uint32_t a, std::uint32_t b) {

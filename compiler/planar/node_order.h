@@ -26,14 +26,17 @@ class NodeOrder {
     void rank(std::span<const std::uint32_t> nodes, std::vector<NodeRank>& ranks);
     /// Sign of the difference of a coordinate.
     int compare(std::uint32_t a, std::uint32_t b, Axis axis);
-    /// Coordinates of a node, remembered.
-    const FixedPoint& fixed(std::uint32_t node);
+    /// Coordinate of a node, as narrow as comparisons needed it.
+    mpq_class coordinate(std::uint32_t node, Axis axis);
 
   private:
     bool before(std::uint32_t a, std::uint32_t b);
+    const FixedPoint& fixed(std::uint32_t node);
+    int compare_finely(std::uint32_t a, std::uint32_t b, Axis axis);
 
     const PlanarMap& map_;
-    std::unordered_map<std::uint32_t, FixedPoint> fixed_;
+    std::unordered_map<std::uint32_t, FixedPoint> fixed_; ///< remembered
+    std::unordered_map<std::uint32_t, RationalPoint> fine_;
     std::vector<std::uint32_t> by_x_;
 };
 

@@ -253,6 +253,14 @@ FixedPoint PlanarMap::fixed(std::uint32_t n) const {
     return p ? *p : FixedPoint{fixed_from(nodes_[n].x), fixed_from(nodes_[n].y)};
 }
 
+std::optional<RationalPoint> PlanarMap::rational(std::uint32_t n, int bits) const {
+    const ArcSet& set = arrangement_.set;
+    if (n >= set.vertices.size()) return {};
+    const Vertex& v = set.vertices[n];
+    if (v.integral || v.a == kNone || v.b == kNone || v.narrow) return {};
+    return rational_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t}, bits);
+}
+
 LinePosition PlanarMap::position(std::uint32_t n, Axis across) const {
     const HalfStep h = across == Axis::X ? nodes_[n].hy : nodes_[n].hx;
     return {h, is_line(h) ? kNone : n};

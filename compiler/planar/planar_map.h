@@ -72,6 +72,8 @@ class PlanarMap {
     [[nodiscard]] const GridNode& node(std::uint32_t n) const { return nodes_[n]; }
     /// Coordinates of a node to 2^-kFixedBits: exact arithmetic, microseconds.
     [[nodiscard]] FixedPoint fixed(std::uint32_t n) const;
+    /// The same to 2^(64 − bits), of a crossing of two curves; none for other nodes.
+    [[nodiscard]] std::optional<RationalPoint> rational(std::uint32_t n, int bits) const;
     /// Position of a node on a line across the axis (X: a vertical line).
     [[nodiscard]] LinePosition position(std::uint32_t n, Axis across) const;
     /// a comes before b on a line across the axis.

@@ -231,14 +231,6 @@ Interval position_at(const Stretch& s, Axis level_axis, double level) {
 
 const Interval& range_along(const GridNode& n, Axis axis) { return axis == Axis::X ? n.x_range : n.y_range; }
 
-mpq_class to_rational(Fixed v) {
-    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
-    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
-    mpq_class out(high + low);
-    mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), budget::kFixedBits);
-    return out;
-}
-
 } // namespace
 
 /// e runs left of f where both run. They don't cross, so boxes or one common level decide.
@@ -283,8 +275,7 @@ int Sweep::order_between(std::uint32_t e, std::uint32_t f, Axis axis, std::uint3
         if (const int c = compare(position_at(a, axis, level), position_at(b, axis, level)); c != 0) return c;
     }
     ++stats_.exact_comparisons;
-    const FixedPoint p = order_.fixed(nodes_[from]), q = order_.fixed(nodes_[to]);
-    const mpq_class level = (to_rational(axis == Axis::X ? p.x : p.y) + to_rational(axis == Axis::X ? q.x : q.y)) / 2;
+    const mpq_class level = (order_.coordinate(nodes_[from], axis) + order_.coordinate(nodes_[to], axis)) / 2;
     const int c = compare_positions_exact(a, b, axis, level);
     decided_ = decided_ && c != 0;
     return c;
@@ -299,8 +290,9 @@ int Sweep::level_edge_against(std::uint32_t e, std::uint32_t f) {
         if (const int c = compare(Interval(middle), position_at(s, Axis::Y, p.y)); c != 0) return c;
     }
     ++stats_.exact_comparisons;
-    const FixedPoint a = order_.fixed(nodes_[edges_[e].top]), b = order_.fixed(nodes_[edges_[e].bottom]);
-    const int c = -compare_position_exact(s, Axis::Y, to_rational(a.y), (to_rational(a.x) + to_rational(b.x)) / 2);
+    const std::uint32_t a = nodes_[edges_[e].top], b = nodes_[edges_[e].bottom];
+    const mpq_class x = (order_.coordinate(a, Axis::X) + order_.coordinate(b, Axis::X)) / 2;
+    const int c = -compare_position_exact(s, Axis::Y, order_.coordinate(a, Axis::Y), x);
     decided_ = decided_ && c != 0;
     return c;
 }

@@ -64,6 +64,7 @@ TEST(FbtRegions, FoundByLongRuns) {
         {207824, {65, 16}}, // crossings just before the start of a curve
         {302646, {50, 0}},  // a corner on a curve just before its extremum
         {505790, {50, 16}}, // a crossing 10^-18 of a parameter from a curve's end in a grid corner
+        {710608, {43, 37}}, // two curves touch in their common end, a third crosses both 10^-25 steps apart
     };
     for (const auto& [seed, size] : cases)
         expect_right_regions(mixed(seed), size, seed);
