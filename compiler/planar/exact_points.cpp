@@ -46,6 +46,13 @@ AlgebraicNumber crossing_parameter(const ArcSet& set, const Vertex& v, std::uint
     return out;
 }
 
+/// From what defines the vertex; none where that is degenerate.
+std::optional<FixedPoint> defined_point(const ArcSet& set, const Vertex& v) {
+    if (v.integral) return fixed(v.point);
+    if (const auto narrow = narrowed(set, v)) return fixed_contact(set.curves[v.a], *narrow);
+    return v.a != kNone && v.b == kNone ? fixed_extremum(set.curves[v.a], v.s) : std::nullopt;
+}
+
 // --- lines: parameters are ratios of integers below 2^91
 
 struct Ratio {
@@ -96,12 +103,7 @@ Fixed fixed_from(double v) {
 }
 
 FixedPoint fixed_point(const ArcSet& set, const Vertex& v) {
-    if (v.integral) return fixed(v.point);
-    std::optional<FixedPoint> p;
-    if (const auto narrow = narrowed(set, v))
-        p = fixed_contact(set.curves[v.a], *narrow);
-    else if (v.a != kNone && v.b == kNone)
-        p = fixed_extremum(set.curves[v.a], v.s);
+    const std::optional<FixedPoint> p = defined_point(set, v);
     return p ? *p : FixedPoint{fixed_from(v.x.mid()), fixed_from(v.y.mid())};
 }
 
@@ -115,8 +117,10 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
     const auto level = static_cast<double>(v);
     if (const int c = compare(along(a, axis), Interval(level)); c != 0) return c;
     if (along(a, axis).lo == along(a, axis).hi) return 0;
-    const Fixed difference = along(fixed_point(set, a), axis) - (static_cast<Fixed>(v) << budget::kFixedBits);
-    if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
+    if (const std::optional<FixedPoint> p = defined_point(set, a)) {
+        const Fixed difference = along(*p, axis) - (static_cast<Fixed>(v) << budget::kFixedBits);
+        if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
+    }
     const AlgebraicNumber t = parameter_of(set, a, a.a, a.s);
     return sign_at(minus(power_basis(set.curves[a.a], axis), to_mpz(v)), t);
 }
