@@ -49,6 +49,10 @@ inline constexpr double kPointWidth = 0x1p-40;
 /// Bits of the parameters used for that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
 inline constexpr int kPreciseBits = 128;
 
+/// Part of a Newton step by which the step goes on beyond the root it expects, so that the next exact sign closes the
+/// bracket from the other side. Decides nothing.
+inline constexpr double kNewtonOvershoot = 0x1p-20;
+
 /// Newton on exact residuals gains about 2^50/condition a step; it stops at steps of 2^(kPreciseSlack − bits), or after
 /// so many.
 inline constexpr int kPreciseSlack = 18;

@@ -37,43 +37,51 @@ bool reduce_cubic(Curve& c) {
     return true;
 }
 
+double lerp(double a, double b, double t) { return a + t * (b - a); }
+
 double casteljau(const std::array<double, 4>& v, int degree, double t) {
-    std::array<double, 4> q = v;
-    for (int k = degree; k > 0; --k) {
-        for (int i = 0; i < k; ++i)
-            q[i] += t * (q[i + 1] - q[i]);
+    switch (degree) {
+    case 0:
+        return v[0];
+    case 1:
+        return lerp(v[0], v[1], t);
+    case 2:
+        return lerp(lerp(v[0], v[1], t), lerp(v[1], v[2], t), t);
+    default:
+        const double q0 = lerp(v[0], v[1], t), q1 = lerp(v[1], v[2], t), q2 = lerp(v[2], v[3], t);
+        return lerp(lerp(q0, q1, t), lerp(q1, q2, t), t);
     }
-    return q[0];
 }
 
 std::array<double, 4> hodograph(const Coordinate& c, int degree) {
-    std::array<double, 4> d{};
-    for (int i = 0; i < degree; ++i)
-        d[i] = degree * (c.local[i + 1] - c.local[i]);
-    return d;
+    const double n = degree;
+    return {n * (c.local[1] - c.local[0]), n * (c.local[2] - c.local[1]), n * (c.local[3] - c.local[2]), 0};
 }
 
-/// Polar form of degree n at the given arguments.
-double blossom(const std::array<double, 4>& v, int degree, const std::array<double, 3>& t) {
-    std::array<double, 4> q = v;
-    for (int k = degree; k > 0; --k) {
-        const double u = t[degree - k];
-        // u = 1 is exact, so that a zero handle at the end stays exactly zero.
-        for (int i = 0; i < k; ++i)
-            q[i] = u == 1 ? q[i + 1] : q[i] + u * (q[i + 1] - q[i]);
-    }
-    return q[0];
-}
+/// As lerp; u = 1 is exact, so that a zero handle at the end stays exactly zero.
+double end_exact(double a, double b, double u) { return u == 1 ? b : lerp(a, b, u); }
 
+/// Polar form at (t0 … t0, t1 … t1), for each number of t1.
 std::array<double, 4> blossom_stretch(const std::array<double, 4>& v, int degree, double t0, double t1) {
-    std::array<double, 4> out{};
-    for (int k = 0; k <= degree; ++k) {
-        std::array<double, 3> args{};
-        for (int i = 0; i < degree; ++i)
-            args[i] = i < degree - k ? t0 : t1;
-        out[k] = blossom(v, degree, args);
+    if (t0 == 0 && t1 == 1) return v;
+    const auto f = end_exact;
+    switch (degree) {
+    case 0:
+        return v;
+    case 1:
+        return {f(v[0], v[1], t0), f(v[0], v[1], t1), 0, 0};
+    case 2: {
+        const double a0 = f(v[0], v[1], t0), a1 = f(v[1], v[2], t0);
+        return {f(a0, a1, t0), f(a0, a1, t1), f(f(v[0], v[1], t1), f(v[1], v[2], t1), t1), 0};
     }
-    return out;
+    default: {
+        const double a0 = f(v[0], v[1], t0), a1 = f(v[1], v[2], t0), a2 = f(v[2], v[3], t0);
+        const double b0 = f(v[0], v[1], t1), b1 = f(v[1], v[2], t1), b2 = f(v[2], v[3], t1);
+        const double a00 = f(a0, a1, t0), a01 = f(a1, a2, t0);
+        return {f(a00, a01, t0), f(a00, a01, t1), f(f(a0, a1, t1), f(a1, a2, t1), t1),
+                f(f(b0, b1, t1), f(b1, b2, t1), t1)};
+    }
+    }
 }
 
 /// Bracketed Newton: double approximation of the root in [lo,hi] of the increasing (after `sign`) coordinate.

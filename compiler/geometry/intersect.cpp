@@ -59,16 +59,17 @@ void split(const Part& in, Part& left, Part& right) {
 /// The pair under test with its error bounds.
 class Filter {
   public:
-    Filter(const Stretch& a, const Stretch& b, std::span<const Contact> known) : a_(a), b_(b), known_(known) {
-        offset_ = {static_cast<double>(b.curve->x.origin - a.curve->x.origin),
-                   static_cast<double>(b.curve->y.origin - a.curve->y.origin)};
-        const double ma = std::max(a.curve->x.magnitude, a.curve->y.magnitude);
-        const double mb = std::max(b.curve->x.magnitude, b.curve->y.magnitude);
-        scale_ = std::max(ma, mb + std::max(std::fabs(offset_.x), std::fabs(offset_.y)));
+    Filter(const ControlPolygon& a, const ControlPolygon& b, std::span<const Contact> known)
+        : a_(a.stretch), b_(b.stretch), known_(known) {
+        offset_ = {static_cast<double>(b_.curve->x.origin - a_.curve->x.origin),
+                   static_cast<double>(b_.curve->y.origin - a_.curve->y.origin)};
+        scale_ = std::max(size_of(a_), size_of(b_) + std::max(std::fabs(offset_.x), std::fabs(offset_.y)));
+        whole_ = {part(a, {}), part(b, offset_), 0};
     }
 
     PairOutcome run(std::vector<Contact>& found) {
-        std::vector<Pair> stack{{part(a_, a_.range, {}), part(b_, b_.range, offset_), 0}};
+        if (apart(whole_, margin(0))) return PairOutcome::Certified;
+        std::vector<Pair> stack{whole_};
         int boxes = 0;
         while (!stack.empty()) {
             const Pair pair = stack.back();
@@ -82,16 +83,28 @@ class Filter {
         return PairOutcome::Certified;
     }
 
+    /// The point lies beyond the strip that holds the polygon.
+    static bool beside(const ControlPolygon& polygon, Vector point) {
+        Part p;
+        p.degree = 0;
+        p.p[0] = point;
+        return beside_chord(part(polygon, {}), p, 2 * budget::kEvaluationError * size_of(polygon.stretch));
+    }
+
   private:
-    static Part part(const Stretch& s, const Interval& range, Vector offset) {
+    static double size_of(const Stretch& s) { return std::max(s.curve->x.magnitude, s.curve->y.magnitude); }
+
+    static Part part(const ControlPolygon& c, Vector offset) {
         Part out;
-        out.degree = s.curve->degree;
-        out.range = range;
-        const std::array<double, 4> x = stretch(*s.curve, Axis::X, range.lo, range.hi);
-        const std::array<double, 4> y = stretch(*s.curve, Axis::Y, range.lo, range.hi);
+        out.degree = c.stretch.curve->degree;
+        out.range = c.stretch.range;
         for (int i = 0; i <= out.degree; ++i)
-            out.p[i] = {x[i] + offset.x, y[i] + offset.y};
+            out.p[i] = {c.x[i] + offset.x, c.y[i] + offset.y};
         return out;
+    }
+
+    static Part part(const Stretch& s, const Interval& range, Vector offset) {
+        return part(ControlPolygon({s.curve, range, s.x_increasing, s.y_increasing}), offset);
     }
 
     [[nodiscard]] double margin(int depth) const {
@@ -280,8 +293,8 @@ class Filter {
         const Box p = box_of(pair.a), q = box_of(pair.b);
         const double la = std::max(p.x1 - p.x0, p.y1 - p.y0), lb = std::max(q.x1 - q.x0, q.y1 - q.y0);
         Part al, ar, bl, br;
-        split(pair.a, al, ar);
-        split(pair.b, bl, br);
+        if (lb <= 2 * la) split(pair.a, al, ar);
+        if (la <= 2 * lb) split(pair.b, bl, br);
         const int depth = pair.depth + 1;
         if (la > 2 * lb) {
             stack.push_back({al, pair.b, depth});
@@ -300,6 +313,7 @@ class Filter {
 
     const Stretch &a_, &b_;
     std::span<const Contact> known_;
+    Pair whole_;
     Vector offset_;
     double scale_ = 0;
     std::vector<Contact> hits_;
@@ -345,17 +359,27 @@ bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval
     return ks * slack < rs && kt * slack < rt;
 }
 
-PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known,
+ControlPolygon::ControlPolygon(const Stretch& s)
+    : stretch(s), x(fetexc::stretch(*s.curve, Axis::X, s.range.lo, s.range.hi)),
+      y(fetexc::stretch(*s.curve, Axis::Y, s.range.lo, s.range.hi)) {}
+
+PairOutcome intersect_certified(const ControlPolygon& a, const ControlPolygon& b, std::span<const Contact> known,
                                 std::vector<Contact>& found) {
-    if (a.curve->degree == 1 && b.curve->degree == 1) {
-        intersect_lines(*a.curve, *b.curve, found);
+    const Curve &ca = *a.stretch.curve, &cb = *b.stretch.curve;
+    if (ca.degree == 1 && cb.degree == 1) {
+        intersect_lines(ca, cb, found);
         return PairOutcome::Certified;
     }
     return Filter(a, b, known).run(found);
 }
 
-std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p) {
+std::optional<Interval> point_on_stretch(const ControlPolygon& polygon, IntPoint p) {
+    const Stretch& s = polygon.stretch;
     const Curve& c = *s.curve;
+    if (c.degree == 1 ? cross(c.p[0], c.p[1], p) != 0
+                      : Filter::beside(polygon, {static_cast<double>(p.x - c.x.origin),
+                                                 static_cast<double>(p.y - c.y.origin)}))
+        return {};
     const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
     const Interval x0 = value_over(c, Axis::X, {s.range.lo, s.range.lo}),
                    x1 = value_over(c, Axis::X, {s.range.hi, s.range.hi});
@@ -366,7 +390,7 @@ std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p) {
     const Interval t = over_y ? parameter_at(c, Axis::Y, s.range, s.y_increasing, y)
                               : parameter_at(c, Axis::X, s.range, s.x_increasing, x);
     if (!value_over(c, over_y ? Axis::X : Axis::Y, t).contains(over_y ? x : y)) return {};
-    if (c.degree == 1) return cross(c.p[0], c.p[1], p) == 0 ? std::optional(t) : std::nullopt;
+    if (c.degree == 1) return t;
     if (implicit_sign(c, p) != 0) return {};
     // Inside a stretch of a curve that doesn't cross itself, that is proof.
     if (c.degree == 2 && t.lo > s.range.lo && t.hi < s.range.hi) return t;

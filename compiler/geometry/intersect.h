@@ -3,6 +3,7 @@
 /// geometry/exact.h.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,15 +22,22 @@ struct Contact {
 bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
                           const Interval& a21, const Interval& a22, double rs, double rt);
 
+/// A stretch with the control points of just that part of its curve (blossom), made once for many pairs.
+struct ControlPolygon {
+    ControlPolygon(const Stretch& s);
+    Stretch stretch;
+    std::array<double, 4> x, y; ///< relative to the curve's origin; error ≤ 2·kEvaluationError·magnitude
+};
+
 enum class PairOutcome { Certified, Undecided };
 
 /// Appends every common point that is not in `known` (shared end points and end points lying on the other curve, found
 /// exactly by the caller). Certified: the list is complete, each entry proved to exist (Krawczyk) and to be alone
 /// (tangent cones). Undecided: tangent, overlapping or too close to tell; nothing is appended and exact.h decides.
-PairOutcome intersect_certified(const Stretch& a, const Stretch& b, std::span<const Contact> known,
+PairOutcome intersect_certified(const ControlPolygon& a, const ControlPolygon& b, std::span<const Contact> known,
                                 std::vector<Contact>& found);
 
 /// Exact: the integer point lies on the stretch's curve and within the stretch; gives its parameter.
-std::optional<Interval> point_on_stretch(const Stretch& s, IntPoint p);
+std::optional<Interval> point_on_stretch(const ControlPolygon& s, IntPoint p);
 
 } // namespace fetexc

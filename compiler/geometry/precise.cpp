@@ -77,7 +77,16 @@ PointEnclosure meet(const PointEnclosure& a, const PointEnclosure& b) { return {
 
 // --- one polynomial
 
-/// Narrows a root whose sign change shows at the ends of t. None when it doesn't show there.
+/// p(t) in double, for steps only.
+double evaluate_double(const Polynomial& p, double t) {
+    double sum = 0;
+    for (std::size_t i = p.size(); i-- > 0;)
+        sum = sum * t + p[i].get_d();
+    return sum;
+}
+
+/// Narrows a root whose sign change shows at the ends of t, to one step of 2^-bits. None when it doesn't show there.
+/// Newton steps that go slightly too far, so that the bracket closes from both sides; each new end is an exact sign.
 std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t, int bits) {
     mpz_class lo = to_dyadic(t.lo, bits), hi = to_dyadic(t.hi, bits);
     const std::size_t scale = p.empty() ? 0 : p.size() - 1;
@@ -85,11 +94,21 @@ std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t, int bi
     if (at_lo == 0 && lo <= hi) return Dyadic{lo, 0, bits};
     if (at_hi == 0) return Dyadic{hi, 0, bits};
     if (at_lo * at_hi > 0) return {};
-    while (hi - lo > 1) {
-        const mpz_class mid = (lo + hi) / 2;
-        const int s = sgn(evaluate_dyadic(p, mid, bits, scale));
-        if (s == 0) return Dyadic{mid, 0, bits};
-        (s == at_lo ? lo : hi) = mid;
+    const Polynomial slope = derivative(p);
+    mpz_class mid = (lo + hi) / 2, width = hi - lo;
+    while (width > 1) {
+        const mpz_class value = evaluate_dyadic(p, mid, bits, scale);
+        if (value == 0) return Dyadic{mid, 0, bits};
+        (sgn(value) == at_lo ? lo : hi) = mid;
+        const mpz_class before = width;
+        width = hi - lo;
+        const double step =
+            to_double(value, bits * static_cast<int>(scale)) / evaluate_double(slope, to_double(mid, bits));
+        if (std::fabs(step) <= 1 && width < before) {
+            mid -= to_dyadic(step * (1 + budget::kNewtonOvershoot), bits) + (step > 0 ? 1 : -1);
+            if (lo < mid && mid < hi && 4 * width < 3 * before) continue;
+        }
+        mid = (lo + hi) / 2;
     }
     return Dyadic{lo, std::ldexp(1.0, -bits), bits};
 }

@@ -15,8 +15,10 @@
 namespace fetexc {
 namespace {
 
-struct Bounds {
-    Interval x, y;
+/// What the pair tests ask of an arc again and again.
+struct ArcShape {
+    Interval x, y; ///< bounds
+    ControlPolygon polygon;
 };
 
 /// A common point of two arcs. vertex: an existing one, or kNone for a new one.
@@ -35,9 +37,9 @@ struct ChunkResult {
     std::optional<Vertex> undecided; ///< a vertex that couldn't be placed
 };
 
-Bounds bounds_of(const ArcSet& set, const Arc& a) {
+ArcShape shape_of(const ArcSet& set, const Arc& a) {
     const Vertex &p = set.vertices[a.v0], &q = set.vertices[a.v1];
-    return {hull(p.x, q.x), hull(p.y, q.y)};
+    return {hull(p.x, q.x), hull(p.y, q.y), set.stretch_of(a)};
 }
 
 bool within(const Interval& a, const Interval& b) { return b.lo <= a.lo && a.hi <= b.hi; }
@@ -45,8 +47,8 @@ bool flat(const Interval& v) { return v.lo == v.hi; }
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<Bounds>& bounds, ChunkResult& out)
-        : set_(set), bounds_(bounds), out_(out) {}
+    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, ChunkResult& out)
+        : set_(set), shapes_(shapes), out_(out) {}
 
     void operator()(std::uint32_t ia, std::uint32_t ib) {
         const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
@@ -55,15 +57,15 @@ class PairTest {
             ++out_.certified;
             return;
         }
-        const Stretch sa = set_.stretch_of(a), sb = set_.stretch_of(b);
-        if (intersect_certified(sa, sb, known_, found_) == PairOutcome::Certified) {
+        const ControlPolygon &pa = shapes_[ia].polygon, &pb = shapes_[ib].polygon;
+        if (intersect_certified(pa, pb, known_, found_) == PairOutcome::Certified) {
             ++out_.certified;
         } else if (a.curve == b.curve) {
             ++out_.exact;
             cross_itself(ia, ib);
         } else {
             ++out_.exact;
-            decide_exactly(ia, ib, sa, sb);
+            decide_exactly(ia, ib, pa.stretch, pb.stretch);
         }
         for (const Contact& c : found_)
             add(ia, ib, c, nullptr);
@@ -72,7 +74,7 @@ class PairTest {
   private:
     /// Shared vertices and end points on the other arc. False: the boxes show that there is nothing else.
     bool collect_known(std::uint32_t ia, std::uint32_t ib, const Arc& a, const Arc& b) {
-        const Bounds &ba = bounds_[ia], &bb = bounds_[ib];
+        const ArcShape &ba = shapes_[ia], &bb = shapes_[ib];
         const Interval ox(std::max(ba.x.lo, bb.x.lo), std::min(ba.x.hi, bb.x.hi));
         const Interval oy(std::max(ba.y.lo, bb.y.lo), std::min(ba.y.hi, bb.y.hi));
         for (const auto& [va, ta] : {std::pair(a.v0, a.t0), std::pair(a.v1, a.t1)}) {
@@ -86,18 +88,21 @@ class PairTest {
                 if (only_x || only_y) return false;
             }
         }
-        end_on_other(ia, ib, a, b, true);
-        end_on_other(ia, ib, b, a, false);
+        end_on_other(ia, ib, a, ib, true);
+        end_on_other(ia, ib, b, ia, false);
         return true;
     }
 
     /// T-junctions: an integral end point of `end` in the interior of `on`.
-    void end_on_other(std::uint32_t ia, std::uint32_t ib, const Arc& end, const Arc& on, bool end_is_a) {
+    void end_on_other(std::uint32_t ia, std::uint32_t ib, const Arc& end, std::uint32_t other, bool end_is_a) {
+        const Arc& on = set_.arcs[other];
+        const ArcShape& shape = shapes_[other];
         const std::array<std::pair<std::uint32_t, Interval>, 2> ends{{{end.v0, end.t0}, {end.v1, end.t1}}};
         for (const auto& [v, t] : ends) {
             const Vertex& vertex = set_.vertices[v];
             if (!vertex.integral || v == on.v0 || v == on.v1) continue;
-            const std::optional<Interval> hit = point_on_stretch(set_.stretch_of(on), vertex.point);
+            if (!within(vertex.x, shape.x) || !within(vertex.y, shape.y)) continue;
+            const std::optional<Interval> hit = point_on_stretch(shape.polygon, vertex.point);
             if (!hit || beyond_an_end(on, vertex, *hit)) continue;
             const Contact c = end_is_a ? Contact{t, *hit} : Contact{*hit, t};
             known_.push_back(c);
@@ -154,29 +159,29 @@ class PairTest {
     }
 
     const ArcSet& set_;
-    const std::vector<Bounds>& bounds_;
+    const std::vector<ArcShape>& shapes_;
     ChunkResult& out_;
     std::vector<Contact> known_, found_;
 };
 
 /// Boxes of the arcs that reach the canvas.
-std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<Bounds>& bounds) {
+std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<ArcShape>& shapes) {
     std::vector<BoxItem> items;
     const double right = static_cast<double>(grid.right()), bottom = static_cast<double>(grid.bottom());
-    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
-        const Bounds& b = bounds[i];
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+        const ArcShape& b = shapes[i];
         if (b.x.hi < 0 || b.x.lo > right || b.y.hi < 0 || b.y.lo > bottom) continue;
         items.push_back({b.x.lo, b.y.lo, b.x.hi, b.y.hi, i});
     }
     return items;
 }
 
-ChunkResult test_pairs(const ArcSet& set, const std::vector<Bounds>& bounds,
+ChunkResult test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes,
                        const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads) {
     constexpr std::size_t chunk = 1024;
     std::vector<ChunkResult> results((pairs.size() + chunk - 1) / chunk);
     parallel_for(results.size(), threads, [&](std::size_t k) {
-        PairTest test(set, bounds, results[k]);
+        PairTest test(set, shapes, results[k]);
         for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
             test(pairs[i].first, pairs[i].second);
     });
@@ -279,12 +284,12 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         PlanarStats pass = {};
         Arrangement out;
         out.set = prepare_arcs(scene, grid, shared, pass);
-        std::vector<Bounds> bounds;
-        bounds.reserve(out.set.arcs.size());
+        std::vector<ArcShape> shapes;
+        shapes.reserve(out.set.arcs.size());
         for (const Arc& a : out.set.arcs)
-            bounds.push_back(bounds_of(out.set, a));
-        const auto pairs = overlapping_pairs(canvas_boxes(grid, bounds));
-        ChunkResult found = test_pairs(out.set, bounds, pairs, threads);
+            shapes.push_back(shape_of(out.set, a));
+        const auto pairs = overlapping_pairs(canvas_boxes(grid, shapes));
+        ChunkResult found = test_pairs(out.set, shapes, pairs, threads);
         std::sort(found.shared.begin(), found.shared.end());
         found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
         const std::size_t known = shared.size();
