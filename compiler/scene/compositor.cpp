@@ -12,6 +12,7 @@
 
 #include "compiler/error_budget.h"
 #include "compiler/scene/clip_tree.h"
+#include "compiler/scene/paint.h"
 #include "compiler/scene/stack.h"
 #include "compiler/scene/tree.h"
 
@@ -23,10 +24,11 @@ struct TreeIndex {
     std::vector<std::vector<std::uint32_t>> fills_of_shape;
     std::vector<std::uint32_t> composited; ///< nearest composited ancestor group
     std::vector<std::uint32_t> clipped;    ///< nearest ancestor with a clip
+    std::vector<bool> covers;              ///< a fill in no composited group that hides what is below it
 
     explicit TreeIndex(const Scene& scene)
         : fills_of_shape(scene.shapes.size()), composited(scene.nodes.size(), kNone),
-          clipped(scene.nodes.size(), kNone) {
+          clipped(scene.nodes.size(), kNone), covers(scene.nodes.size(), false) {
         std::vector<std::uint32_t> open;
         for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
             while (!open.empty() && scene.nodes[open.back()].end <= i)
@@ -35,11 +37,17 @@ struct TreeIndex {
             if (scene.nodes[i].kind == Node::Kind::Group)
                 open.push_back(i);
             else
-                fills_of_shape[scene.nodes[i].shape].push_back(i);
+                add_fill(scene, i);
         }
     }
 
   private:
+    void add_fill(const Scene& scene, std::uint32_t i) {
+        const Node& fill = scene.nodes[i];
+        fills_of_shape[fill.shape].push_back(i);
+        covers[i] = composited[i] == kNone && fill.opacity >= 1 && paint_is_opaque(scene.paints[fill.paint]);
+    }
+
     void inherit(const Scene& scene, std::uint32_t i, std::uint32_t parent) {
         composited[i] = is_composited(scene.nodes[parent]) ? parent : composited[parent];
         clipped[i] = scene.nodes[parent].clip != kNone ? parent : clipped[parent];
@@ -58,7 +66,7 @@ class StackBuilder {
             for (std::uint32_t fill : index_.fills_of_shape[shape])
                 if (passes_clips(fill)) active_.push_back(fill);
         std::sort(active_.begin(), active_.end());
-        return range(0, scene_.root_end);
+        return range(topmost_cover(), scene_.root_end);
     }
 
   private:
@@ -71,6 +79,13 @@ class StackBuilder {
         for (; i != kNone; i = index_.clipped[i])
             if (scene_.nodes[i].clip != kNone && !clips_.inside(scene_.nodes[i].clip)) return false;
         return true;
+    }
+
+    /// The last active fill of the picture that hides everything below it.
+    [[nodiscard]] std::uint32_t topmost_cover() const {
+        for (auto it = active_.rbegin(); it != active_.rend(); ++it)
+            if (*it < scene_.root_end && index_.covers[*it]) return *it;
+        return 0;
     }
 
     /// The active fills of [first,end) — the picture or a mask's content — composited.
@@ -130,17 +145,43 @@ class StackBuilder {
     std::vector<std::uint32_t> active_;
 };
 
+std::uint64_t mixed(std::uint64_t h, std::uint64_t word) {
+    h = (h ^ word) * 0xff51afd7ed558ccdu;
+    return h ^ h >> 32;
+}
+
 using Key = std::vector<std::uint64_t>;
 
 struct KeyHash {
     std::size_t operator()(const Key& key) const noexcept {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
-        for (std::uint64_t word : key) {
-            h = (h ^ word) * 0xff51afd7ed558ccdu;
-            h ^= h >> 32;
-        }
+        for (std::uint64_t word : key)
+            h = mixed(h, word);
         return static_cast<std::size_t>(h);
     }
+};
+
+/// Answers to sets of inside shapes, while there is room: the same sets come up all over the picture.
+constexpr std::size_t kRememberedSets = std::size_t{1} << 12; ///< per shard
+using Inside = std::vector<std::uint32_t>;
+struct InsideHash {
+    using is_transparent = void;
+    std::size_t operator()(std::span<const std::uint32_t> inside) const noexcept {
+        std::uint64_t h = 0x9e3779b97f4a7c15u;
+        for (std::uint32_t shape : inside)
+            h = mixed(h, shape);
+        return static_cast<std::size_t>(h);
+    }
+};
+struct InsideEqual {
+    using is_transparent = void;
+    bool operator()(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const noexcept {
+        return std::ranges::equal(a, b);
+    }
+};
+struct Memory {
+    std::mutex mutex;
+    std::unordered_map<Inside, ResultId, InsideHash, InsideEqual> results;
 };
 
 /// Interned results; ids are index·kShards + shard.
@@ -220,16 +261,25 @@ struct Compositor::Impl {
     std::mutex builders_mutex;
     std::vector<std::unique_ptr<StackBuilder>> builders;
     std::array<Shard, kShards> shards;
+    std::array<Memory, kShards> memory;
 };
 
 Compositor::Compositor(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Compositor::~Compositor() = default;
 
 ResultId Compositor::resolve(std::span<const std::uint32_t> inside) {
+    Memory& memory = impl_->memory[InsideHash{}(inside) >> 60];
+    {
+        const std::lock_guard lock(memory.mutex);
+        if (const auto it = memory.results.find(inside); it != memory.results.end()) return it->second;
+    }
     std::unique_ptr<StackBuilder> builder = impl_->take_builder();
     Stack stack = builder->build(inside);
     impl_->give_back(std::move(builder));
-    return impl_->intern(std::move(stack));
+    const ResultId result = impl_->intern(std::move(stack));
+    const std::lock_guard lock(memory.mutex);
+    if (memory.results.size() < kRememberedSets) memory.results.try_emplace({inside.begin(), inside.end()}, result);
+    return result;
 }
 
 bool Compositor::is_solid(ResultId id) const { return impl_->entry(id).solid; }
