@@ -13,7 +13,12 @@ namespace fetexc {
 /// of the calls.
 class UnionFind {
   public:
-    explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    UnionFind() = default;
+    explicit UnionFind(std::size_t n) { reset(n); }
+    void reset(std::size_t n) {
+        parent_.resize(n);
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
     [[nodiscard]] std::uint32_t find(std::uint32_t k) {
         while (parent_[k] != k)
             k = parent_[k] = parent_[parent_[k]];

@@ -107,6 +107,7 @@ class Builder {
 
     Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow& reach, PlanarStats& stats) {
         TexelMapper mapper(map_, scene_, compositor_, stats);
+        FeatureBuilder feature_builder(map_, mapper);
         RowWriter writer(map_, sampler_, out);
         TexelMap texel;
         TexelFeatures features;
@@ -120,7 +121,7 @@ class Builder {
                 reach.add_empty(corners_.at(i, j));
                 return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
             }
-            if (!mapper.analyse(i, j, corner, texel) || !build_features(map_, mapper, texel, features)) {
+            if (!mapper.analyse(i, j, corner, texel) || !feature_builder.build(texel, features)) {
                 status = inconsistent(i, j);
                 return;
             }

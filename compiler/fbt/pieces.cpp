@@ -72,41 +72,38 @@ int demote(std::array<LocalPoint, 4>& p, int degree) {
     return 1;
 }
 
-std::vector<Joined> join(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps) {
-    std::vector<Joined> out;
+/// Calls use(Joined) for every maximal stretch of one arc along the chain.
+template <class Use>
+void join(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps, const Use& use) {
+    Joined last;
+    bool any = false;
     for (const FeatureStep& step : steps) {
         const SubEdge& s = texel.sub_edges[step.sub];
         const Joined next{map.arrangement().edges[s.edge].arc, s.range.lo, s.range.hi, s.n0, s.n1, step.forward};
-        Joined* last = out.empty() ? nullptr : &out.back();
-        if (last != nullptr && last->arc == next.arc && last->forward == next.forward) {
-            if (next.forward && last->n1 == next.n0) {
-                last->t1 = next.t1, last->n1 = next.n1;
-                continue;
-            }
-            if (!next.forward && last->n0 == next.n1) {
-                last->t0 = next.t0, last->n0 = next.n0;
-                continue;
-            }
+        const bool same = any && last.arc == next.arc && last.forward == next.forward;
+        if (same && next.forward && last.n1 == next.n0) {
+            last.t1 = next.t1, last.n1 = next.n1;
+        } else if (same && !next.forward && last.n0 == next.n1) {
+            last.t0 = next.t0, last.n0 = next.n0;
+        } else {
+            if (any) use(last);
+            last = next, any = true;
         }
-        out.push_back(next);
     }
-    return out;
+    if (any) use(last);
 }
 
 } // namespace
 
-bool cancel_out(const std::vector<Run>& runs) {
+bool cancel_out(const PieceRuns& all, std::size_t first_run) {
     const auto end_of = [](const Piece& p) { return p.p[p.degree]; };
-    if (runs.empty()) return true;
-    if (runs.front().pieces.front().p[0] != end_of(runs.back().pieces.back())) return false; // not closed
-    std::vector<Piece> pieces;
-    for (const Run& run : runs) {
-        for (Piece p : run.pieces) {
-            if (end_of(p) < p.p[0]) std::reverse(p.p.begin(), p.p.begin() + p.degree + 1);
-            pieces.push_back(p);
-        }
+    if (first_run == all.runs.size()) return true;
+    const auto chain = std::span(all.pieces).subspan(all.runs[first_run].first_piece);
+    if (chain.size() % 2 != 0 || chain.front().p[0] != end_of(chain.back())) return false; // not closed
+    std::vector<Piece> pieces(chain.begin(), chain.end());
+    for (Piece& p : pieces) {
+        if (end_of(p) < p.p[0]) std::reverse(p.p.begin(), p.p.begin() + p.degree + 1);
     }
-    if (pieces.size() % 2 != 0) return false;
     std::sort(pieces.begin(), pieces.end());
     for (std::size_t k = 0; k < pieces.size(); k += 2) {
         if (pieces[k] != pieces[k + 1]) return false;
@@ -114,11 +111,11 @@ bool cancel_out(const std::vector<Run>& runs) {
     return true;
 }
 
-std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps,
-                           PieceStats& stats) {
+void make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const FeatureStep> steps, PieceRuns& out,
+               PieceStats& stats) {
     const Quantiser quantiser(map, texel);
-    std::vector<Run> runs;
-    for (const Joined& j : join(map, texel, steps)) {
+    const std::size_t first = out.runs.size();
+    join(map, texel, steps, [&](const Joined& j) {
         const Curve& c = map.arrangement().set.curves[map.arrangement().set.arcs[j.arc].curve];
         std::array<LocalPoint, 4> p = quantiser.control(j, c);
         Piece piece;
@@ -128,14 +125,14 @@ std::vector<Run> make_runs(const PlanarMap& map, const TexelMap& texel, std::spa
             piece.p[j.forward ? i : piece.degree - i] = fetex::fbt_pack_point(p[i].x, p[i].y);
         if (piece.p[0] == piece.p[piece.degree]) {
             ++stats.vanished;
-            continue;
+            return;
         }
         ++stats.pieces;
-        if (runs.empty() || runs.back().degree != piece.degree || runs.back().pieces.size() == 0xffff)
-            runs.push_back({piece.degree, {}});
-        runs.back().pieces.push_back(piece);
-    }
-    return runs;
+        if (out.runs.size() == first || out.runs.back().degree != piece.degree || out.runs.back().pieces == 0xffff)
+            out.runs.push_back({piece.degree, static_cast<std::uint32_t>(out.pieces.size()), 0});
+        out.pieces.push_back(piece);
+        ++out.runs.back().pieces;
+    });
 }
 
 } // namespace fetexc

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <utility>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "compiler/compile.h"
@@ -31,6 +31,26 @@ struct RowOutput {
     std::vector<std::uint32_t> collapsed; ///< vertices of which nothing is left in their texel
 };
 
+/// The piece records of a texel, to find equal ones.
+class WrittenRuns {
+  public:
+    void clear();
+    /// The record of an equal run; none: these words, about to be written at `record`, are new.
+    std::optional<std::uint32_t> find_or_add(std::span<const std::uint32_t> words, std::uint32_t record,
+                                             const std::vector<std::uint32_t>& records);
+
+  private:
+    struct Entry {
+        std::uint64_t hash = 0;
+        std::uint32_t record = 0;
+        std::size_t words = 0;
+    };
+    void grow();
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> slots_; ///< open addressing: 1 + index of an entry, 0 = free; a power of 2, half empty
+};
+
 class RowWriter {
   public:
     RowWriter(const PlanarMap& map, const RegionSampler& sampler, RowOutput& out)
@@ -42,19 +62,27 @@ class RowWriter {
                      std::uint32_t first_vertex);
 
   private:
-    /// A band ready to be written: runs per feature that didn't vanish.
+    /// A feature that didn't vanish.
     struct ReadyFeature {
-        std::vector<Run> runs;
+        std::uint32_t first_run = 0, runs = 0; ///< in runs_
         std::uint32_t ray = 0, region = 0;
     };
+    /// A band ready to be written.
     struct ReadyBand {
         std::uint32_t y_end = 0;
-        std::vector<ReadyFeature> features;
+        std::uint32_t first_feature = 0, features = 0; ///< in features_
         std::uint32_t rest = 0;
     };
-    static bool shadowed(const std::vector<ReadyFeature>& before, const std::vector<Run>& runs, std::uint32_t ray);
-    void count_slivers(const std::vector<ReadyBand>& bands);
-    std::vector<ReadyBand> prepare(const TexelMap& texel, const TexelFeatures& features);
+    [[nodiscard]] std::span<const ReadyFeature> features_of(const ReadyBand& b) const {
+        return std::span(features_).subspan(b.first_feature, b.features);
+    }
+    [[nodiscard]] std::span<const Run> runs_of(const ReadyFeature& f) const {
+        return std::span(runs_.runs).subspan(f.first_run, f.runs);
+    }
+    [[nodiscard]] bool shadowed(const ReadyBand& band, const ReadyFeature& feature) const;
+    [[nodiscard]] bool same_runs(const ReadyFeature& a, const ReadyFeature& b) const;
+    void count_slivers();
+    void prepare(const TexelMap& texel, const TexelFeatures& features);
     std::uint32_t write_band(const ReadyBand& band);
     std::uint32_t write_pieces(const Run& run);
     void write_entry(std::uint32_t address, std::uint32_t word1, std::uint32_t region, bool last);
@@ -67,7 +95,12 @@ class RowWriter {
     std::vector<RegionSample> samples_;
     std::vector<ResultId> results_;
     std::uint32_t first_vertex_ = 0;
-    std::map<std::vector<std::uint32_t>, std::uint32_t> written_; ///< piece words of this texel → record
+    WrittenRuns written_;
+    std::vector<ReadyBand> bands_;
+    std::vector<ReadyFeature> features_;
+    PieceRuns runs_;
+    std::vector<std::uint32_t> words_, addresses_, directory_;
+    std::vector<bool> left_;
 };
 
 } // namespace fetexc

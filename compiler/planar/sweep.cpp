@@ -11,7 +11,7 @@ bool Sweep::run(std::span<const SubEdge> sub_edges, const SweepGraph& graph, std
     sub_edges_ = sub_edges, nodes_ = graph.nodes, ranks_ = graph.ranks, edges_ = graph.edges, frame_ = frame,
     out_ = &out;
     decided_ = true;
-    out = {};
+    out.clear();
     has_cuts_ = !cuts.empty();
     prepare(nodes_.size());
     gaps_.push_back(open_gap(new_face(), 0, kNone));
@@ -43,9 +43,9 @@ void Sweep::prepare(std::size_t nodes) {
     for (std::size_t k = 1; k < first_out_.size(); ++k)
         first_out_[k] += first_out_[k - 1];
     out_edges_.resize(edges_.size());
-    std::vector<std::uint32_t> next(first_out_.begin(), first_out_.end() - 1);
+    next_out_.assign(first_out_.begin(), first_out_.end() - 1);
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
-        out_edges_[next[edges_[e].top]++] = e;
+        out_edges_[next_out_[edges_[e].top]++] = e;
 }
 
 Sweep::Side Sweep::side_of(std::uint32_t k) const {

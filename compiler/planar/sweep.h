@@ -59,6 +59,12 @@ struct SweepResult {
     std::vector<std::uint32_t> faces; ///< face parent links; use face()
     std::uint32_t first_face = 0;     ///< leftmost in the first slab
 
+    void clear() {
+        portions.clear(), trapezoids.clear(), faces.clear(), first_face = 0;
+        for (std::vector<SidePart>& side : sides)
+            side.clear();
+    }
+
     [[nodiscard]] std::uint32_t face(std::uint32_t f) const {
         while (faces[f] != f)
             f = faces[f];
@@ -128,6 +134,7 @@ class Sweep {
     std::vector<Gap> gaps_;                            ///< status_.size() + 1
     std::vector<std::uint32_t> portion_;               ///< current portion of each edge
     std::vector<std::uint32_t> first_out_, out_edges_; ///< outgoing edges per node (CSR)
+    std::vector<std::uint32_t> next_out_;              ///< scratch
     std::vector<std::uint32_t> in_count_;
     std::vector<std::uint32_t> outgoing_;
     std::vector<bool> level_on_cut_; ///< per edge: lies on a band line

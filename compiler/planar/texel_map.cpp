@@ -19,11 +19,11 @@ ResultId ResultLookup::operator()(const Windings& w) {
     return last_;
 }
 
-void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, SweepGraph& out) {
+void TexelMapper::collect(std::span<const SubEdge> sub_edges, SweepGraph& out) {
     out.nodes.clear(), out.edges.clear();
-    for (std::uint32_t s : chosen) {
-        out.nodes.push_back(sub_edges[s].n0);
-        out.nodes.push_back(sub_edges[s].n1);
+    for (const SubEdge& s : sub_edges) {
+        out.nodes.push_back(s.n0);
+        out.nodes.push_back(s.n1);
     }
     order_.sort(out.nodes);
     order_.rank(out.nodes, out.ranks);
@@ -34,7 +34,7 @@ void TexelMapper::collect(std::span<const SubEdge> sub_edges, std::span<const st
     const auto index = [&](std::uint32_t n) {
         return std::lower_bound(index_.begin(), index_.end(), std::pair(n, 0u))->second;
     };
-    for (std::uint32_t s : chosen) {
+    for (std::uint32_t s = 0; s < sub_edges.size(); ++s) {
         const std::uint32_t a = index(sub_edges[s].n0), b = index(sub_edges[s].n1);
         out.edges.push_back({s, std::min(a, b), std::max(a, b), a < b});
     }
@@ -44,50 +44,58 @@ bool TexelMapper::analyse(std::uint32_t i, std::uint32_t j, const Windings& corn
     out.i = i, out.j = j;
     out.frame = {2 * static_cast<HalfStep>(i), 2 * static_cast<HalfStep>(j)};
     out.sub_edges = map_.sub_edges(i, j);
-    all_.resize(out.sub_edges.size());
-    std::iota(all_.begin(), all_.end(), 0u);
-    collect(out.sub_edges, all_, out.graph);
+    collect(out.sub_edges, out.graph);
     if (!sweep_.run(out.sub_edges, out.graph, {}, out.frame, out.sweep)) return false;
     stats_.trapezoids += out.sweep.trapezoids.size();
     return assign_results(corner, out);
+}
+
+/// For each face the portions along it (CSR).
+void TexelMapper::list_portions_of_faces(const SweepResult& s) {
+    portion_start_.assign(s.faces.size() + 1, 0);
+    for (const Portion& p : s.portions)
+        ++portion_start_[s.face(p.left)], ++portion_start_[s.face(p.right)];
+    std::partial_sum(portion_start_.begin(), portion_start_.end(), portion_start_.begin());
+    portion_of_face_.resize(2 * s.portions.size());
+    for (auto p = static_cast<std::uint32_t>(s.portions.size()); p-- > 0;) {
+        portion_of_face_[--portion_start_[s.face(s.portions[p].right)]] = {p, -1};
+        portion_of_face_[--portion_start_[s.face(s.portions[p].left)]] = {p, 1};
+    }
 }
 
 /// Winding numbers from face to face across the edges.
 bool TexelMapper::assign_results(const Windings& corner, TexelMap& out) {
     const SweepResult& s = out.sweep;
     const std::size_t n = s.faces.size();
-    std::vector<std::vector<std::pair<std::uint32_t, std::int32_t>>> next(n); // face → (portion, +1 left to right)
-    for (std::uint32_t p = 0; p < s.portions.size(); ++p) {
-        next[s.face(s.portions[p].left)].emplace_back(p, 1);
-        next[s.face(s.portions[p].right)].emplace_back(p, -1);
-    }
-    std::vector<Windings> windings(n);
-    std::vector<bool> known(n, false);
+    list_portions_of_faces(s);
+    if (windings_.size() < n) windings_.resize(n);
+    known_.assign(n, false);
     out.results.assign(n, 0);
-    std::vector<std::uint32_t> queue{s.face(s.first_face)};
-    known[queue[0]] = true;
-    windings[queue[0]] = corner;
-    for (std::size_t q = 0; q < queue.size(); ++q) {
-        const std::uint32_t face = queue[q];
-        out.results[face] = lookup_(windings[face]);
-        for (const auto& [p, direction] : next[face]) {
+    queue_.assign(1, s.face(s.first_face));
+    known_[queue_[0]] = true;
+    windings_[queue_[0]] = corner;
+    for (std::size_t q = 0; q < queue_.size(); ++q) {
+        const std::uint32_t face = queue_[q];
+        out.results[face] = lookup_(windings_[face]);
+        for (std::uint32_t k = portion_start_[face]; k < portion_start_[face + 1]; ++k) {
+            const auto& [p, direction] = portion_of_face_[k];
             const Portion& portion = s.portions[p];
             const std::uint32_t to = s.face(direction > 0 ? portion.right : portion.left);
-            if (known[to]) continue;
+            if (known_[to]) continue;
             const SweepEdge& edge = out.graph.edges[portion.edge];
             const SubEdge& sub = out.sub_edges[edge.sub];
             const std::int32_t sign = edge.down ? direction : -direction;
-            windings[to] = windings[face];
+            windings_[to] = windings_[face];
             for (const Contribution& c : map_.contributions_of(sub))
-                add_winding(windings[to], c.shape, sign * c.winding);
-            known[to] = true;
-            queue.push_back(to);
+                add_winding(windings_[to], c.shape, sign * c.winding);
+            known_[to] = true;
+            queue_.push_back(to);
         }
     }
-    stats_.regions += queue.size();
+    stats_.regions += queue_.size();
     bool complete = true;
     for (std::uint32_t f = 0; f < n; ++f) {
-        complete = complete && known[s.face(f)];
+        complete = complete && known_[s.face(f)];
         out.results[f] = out.results[s.face(f)];
     }
     return complete;

@@ -44,13 +44,13 @@ class TexelMapper {
     /// caller).
     bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
 
-    /// Nodes of a set of sub-edges in exact order, and the edges between them.
-    void collect(std::span<const SubEdge> sub_edges, std::span<const std::uint32_t> chosen, SweepGraph& out);
-
     Sweep& sweep() { return sweep_; }
     ResultLookup& lookup() { return lookup_; }
 
   private:
+    /// The sub-edges' nodes in exact order, and the edges between them.
+    void collect(std::span<const SubEdge> sub_edges, SweepGraph& out);
+    void list_portions_of_faces(const SweepResult& sweep);
     bool assign_results(const Windings& corner, TexelMap& out);
 
     const PlanarMap& map_;
@@ -58,8 +58,12 @@ class TexelMapper {
     NodeOrder order_;
     Sweep sweep_;
     ResultLookup lookup_;
-    std::vector<std::uint32_t> all_;
+    // scratch
     std::vector<std::pair<std::uint32_t, std::uint32_t>> index_; ///< node → position
+    std::vector<std::uint32_t> portion_start_, queue_;
+    std::vector<std::pair<std::uint32_t, std::int32_t>> portion_of_face_; ///< +1: the face lies left of it
+    std::vector<Windings> windings_;                                      ///< per face
+    std::vector<bool> known_;
 };
 
 } // namespace fetexc
