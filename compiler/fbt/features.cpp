@@ -261,9 +261,8 @@ void FeatureBuilder::topmost(std::uint32_t& first, std::uint32_t& last) const {
     first = last = kNone;
     const auto key = [&](std::uint32_t p) {
         const Portion& portion = sweep_->portions[p];
-        return portion.rank != kNone
-                   ? std::pair<std::uint32_t, std::uint32_t>(0, portion.rank)
-                   : std::pair<std::uint32_t, std::uint32_t>(graph_->edges[portion.edge].top + 1, p);
+        return portion.rank != kNone ? std::pair<std::uint32_t, std::uint32_t>(0, portion.rank)
+                                     : std::pair<std::uint32_t, std::uint32_t>(graph_->edges[portion.edge].top + 1, p);
     };
     for (std::uint32_t p : chain_) {
         const auto k = key(p);
@@ -298,9 +297,8 @@ bool FeatureBuilder::order_features(std::span<SimpleFeature> features) {
     }
     order_.resize(features.size());
     std::iota(order_.begin(), order_.end(), 0u);
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t x, std::uint32_t y) {
-        return depth_[x] != depth_[y] ? depth_[x] > depth_[y] : x < y;
-    });
+    std::sort(order_.begin(), order_.end(),
+              [&](std::uint32_t x, std::uint32_t y) { return depth_[x] != depth_[y] ? depth_[x] > depth_[y] : x < y; });
     sorted_.clear();
     for (std::uint32_t k : order_) {
         out_->regions.push_back(region_[features[k].inside]);

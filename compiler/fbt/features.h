@@ -115,8 +115,8 @@ class FeatureBuilder {
     std::vector<std::uint32_t> region_;        ///< per face of *sweep_ (roots)
     std::vector<std::uint32_t> first_portion_; ///< of the first sweep, per sub-edge
     std::vector<std::array<std::uint32_t, 2>> at_node_;
-    std::vector<std::uint32_t> chain_; ///< portions
-    std::vector<bool> downward_;       ///< walked from top to bottom
+    std::vector<std::uint32_t> chain_;                             ///< portions
+    std::vector<bool> downward_;                                   ///< walked from top to bottom
     std::vector<std::pair<std::uint32_t, std::uint32_t>> parents_; ///< inside face → feature
     std::vector<std::uint32_t> depth_, path_, order_;
     std::vector<SimpleFeature> sorted_;

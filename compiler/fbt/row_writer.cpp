@@ -69,8 +69,8 @@ bool RowWriter::same_runs(const ReadyFeature& a, const ReadyFeature& b) const {
 
 /// The same pieces under the same ray as an earlier feature: what lies inside is taken by that one.
 bool RowWriter::shadowed(const ReadyBand& band, const ReadyFeature& feature) const {
-    return std::ranges::any_of(
-        features_of(band), [&](const ReadyFeature& f) { return f.ray == feature.ray && same_runs(f, feature); });
+    return std::ranges::any_of(features_of(band),
+                               [&](const ReadyFeature& f) { return f.ray == feature.ray && same_runs(f, feature); });
 }
 
 /// Slivers: regions thinner than the output grid, of which no band has anything left.
@@ -138,8 +138,8 @@ std::uint32_t RowWriter::write_band(const ReadyBand& band) {
             const auto degree = static_cast<std::uint32_t>(run.degree);
             out_.traits.degrees |= 1u << degree;
             out_.traits.max_degree = std::max(out_.traits.max_degree, degree);
-            write_entry(addresses_[k++],
-                        run.pieces | (degree << 16) | (f.ray << 18) | (last ? kFbtEntryLastRun : 0), f.region, last);
+            write_entry(addresses_[k++], run.pieces | (degree << 16) | (f.ray << 18) | (last ? kFbtEntryLastRun : 0),
+                        f.region, last);
         }
     }
     write_entry(0, kFbtEntryTerminator, band.rest, true);

@@ -376,9 +376,9 @@ PairOutcome intersect_certified(const ControlPolygon& a, const ControlPolygon& b
 std::optional<Interval> point_on_stretch(const ControlPolygon& polygon, IntPoint p) {
     const Stretch& s = polygon.stretch;
     const Curve& c = *s.curve;
-    if (c.degree == 1 ? cross(c.p[0], c.p[1], p) != 0
-                      : Filter::beside(polygon, {static_cast<double>(p.x - c.x.origin),
-                                                 static_cast<double>(p.y - c.y.origin)}))
+    if (c.degree == 1
+            ? cross(c.p[0], c.p[1], p) != 0
+            : Filter::beside(polygon, {static_cast<double>(p.x - c.x.origin), static_cast<double>(p.y - c.y.origin)}))
         return {};
     const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
     const Interval x0 = value_over(c, Axis::X, {s.range.lo, s.range.lo}),
