@@ -25,6 +25,10 @@ inline constexpr double kSplitError = 16 * kUnitRoundoff;
 /// long before.
 inline constexpr double kFilterMinWidth = 0x1p-36;
 
+/// Part of a bracket: the step after a Newton step this short is about its square, below a rounding. Decides nothing:
+/// the enclosure around the root is found by certified signs.
+inline constexpr double kNewtonStop = 0x1p-28;
+
 /// Part of a box: after eight Newton steps a step this small is worth a certificate. Decides nothing: the Krawczyk test
 /// does.
 inline constexpr double kNewtonSettled = 1e-3;
@@ -74,10 +78,6 @@ inline constexpr int kFixedCertain = 4;
 /// Curve parameter: ranges of stretches are outer enclosures, a few roundings wide; what is looked for just beside them
 /// is within this.
 inline constexpr double kBesideRange = 0x1p-40;
-
-/// Lattice steps, as a negative power of two: points of two curves, each known to lie on the other's algebraic curve
-/// and enclosed to about 2^-140, are one point when nearer than this.
-inline constexpr int kSameBranchBits = 60;
 
 /// Lattice steps; end points closer than this are one vertex: 2^-20 of the extent of 2^26 steps (DESIGN §3).
 inline constexpr double kMergeDistance = 64.0;

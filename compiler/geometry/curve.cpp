@@ -84,17 +84,24 @@ std::array<double, 4> blossom_stretch(const std::array<double, 4>& v, int degree
     }
 }
 
-/// Bracketed Newton: double approximation of the root in [lo,hi] of the increasing (after `sign`) coordinate.
-double newton_root(const Curve& c, Axis axis, double lo, double hi, double sign, double target) {
-    double t = 0.5 * (lo + hi);
+/// Bracketed Newton from the secant: double approximation of the root in [lo,hi] of the increasing (after `sign`)
+/// coordinate.
+double newton_root(const Coordinate& c, int degree, double lo, double hi, double sign, double target) {
+    const std::array<double, 4> slope = hodograph(c, degree);
+    const auto value = [&](double t) { return (casteljau(c.local, degree, t) - target) * sign; };
+    const double at_lo = value(lo), at_hi = value(hi);
+    if (!(at_lo < 0)) return lo;
+    if (!(at_hi > 0)) return hi;
+    const double settled = budget::kNewtonStop * (hi - lo);
+    double t = lo + (hi - lo) * (at_lo / (at_lo - at_hi));
     for (int k = 0; k < 64; ++k) {
-        const double f = (casteljau(c.along(axis).local, c.degree, t) - target) * sign;
+        const double f = value(t);
         if (f == 0) return t;
         (f > 0 ? hi : lo) = t;
-        const double df = derivative_double(c, axis, t) * sign;
+        const double df = casteljau(slope, degree - 1, t) * sign;
         double next = df > 0 ? t - f / df : lo - 1;
         if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-        if (std::fabs(next - t) <= budget::kUnitRoundoff * std::fabs(t)) return next;
+        if (std::fabs(next - t) <= std::max(settled, budget::kUnitRoundoff * std::fabs(t))) return next;
         t = next;
     }
     return t;
@@ -165,7 +172,7 @@ double derivative_double(const Curve& c, Axis axis, double t) {
 Interval parameter_at(const Curve& c, Axis axis, const Interval& range, bool increasing, double v) {
     const Coordinate& k = c.along(axis);
     const double sign = increasing ? 1 : -1, target = v - static_cast<double>(k.origin);
-    const double t = newton_root(c, axis, range.lo, range.hi, sign, target);
+    const double t = newton_root(k, c.degree, range.lo, range.hi, sign, target);
     const double slope = std::fabs(derivative_double(c, axis, t)),
                  noise = 2 * budget::kEvaluationError * (k.magnitude + std::fabs(target));
     // Where the slope vanishes the noise of a simple root says nothing: start small, the loop below finds how far to

@@ -8,24 +8,6 @@
 namespace fetexc {
 namespace {
 
-Interval to_double(const RationalRange& v) {
-    // get_d truncates towards zero: one unit each way encloses.
-    return {widen_down(v.lo.get_d()), widen_up(v.hi.get_d())};
-}
-
-/// Enclosure of p over [lo,hi]: value in the middle plus a derivative bound times the half width (|t| ≤ 2).
-RationalRange evaluate_over(const Polynomial& p, const RationalRange& t) {
-    const mpq_class mid = (t.lo + t.hi) / 2, half = (t.hi - t.lo) / 2;
-    mpq_class bound = 0, power = 1;
-    const mpq_class reach = std::max(mpq_class(abs(t.lo)), mpq_class(abs(t.hi)));
-    for (std::size_t i = 1; i < p.size(); ++i) {
-        bound += abs(p[i]) * static_cast<unsigned long>(i) * power;
-        power *= reach;
-    }
-    const mpq_class v = evaluate(p, mid), w = bound * half;
-    return {v - w, v + w};
-}
-
 /// Parameter of the stretch where the coordinate passes v, to within 2^-bits of the range; clamped to the range.
 RationalRange bisect(const Stretch& s, const Polynomial& p, bool increasing, const mpq_class& v, int bits) {
     mpq_class lo(s.range.lo), hi(s.range.hi);
@@ -109,7 +91,7 @@ bool maps_onto(const std::array<mpz_class, 4>& a, const std::array<mpz_class, 4>
     return e0 == a[0] && e1 == a[1] && e2 == a[2] && e3 == a[3];
 }
 
-Interval enclose(const mpq_class& v) { return to_double({v, v}); }
+Interval enclose(const mpq_class& v) { return to_interval({v, v}); }
 
 } // namespace
 
@@ -139,70 +121,41 @@ bool same_support(const Curve& a, const Curve& b, SupportMap& map) {
     return true;
 }
 
-namespace {
-
-/// Where the other curve's algebraic curve is met, and the point there.
-struct Candidate {
-    RationalRange t, x, y;
-};
-
-std::vector<Candidate> candidates(const Polynomial& resultant, const Stretch& s) {
-    const Polynomial px = power_basis(*s.curve, Axis::X), py = power_basis(*s.curve, Axis::Y);
-    std::vector<Candidate> out;
-    for (const auto& [lo, hi] :
-         isolate_roots(resultant, mpq_class(s.range.lo), mpq_class(s.range.hi), 2 * budget::kRefineBits)) {
-        const RationalRange t{lo, hi};
-        out.push_back({t, evaluate_over(px, t), evaluate_over(py, t)});
-    }
-    return out;
-}
-
-bool near(const RationalRange& a, const RationalRange& b) {
-    static const mpq_class slack(mpz_class(1), mpz_class(1) << budget::kSameBranchBits);
-    return a.lo <= b.hi + slack && b.lo <= a.hi + slack;
-}
-
-} // namespace
-
-ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits) {
-    const Polynomial ra = eliminate(*a.curve, *b.curve);
-    if (ra.empty()) return ExactOutcome::CommonComponent;
-    // Either curve's roots include those of branches that the other's parameter range leaves out: the points tell.
-    const std::vector<Candidate> on_a = candidates(ra, a);
-    if (on_a.empty()) return ExactOutcome::Done;
-    const std::vector<Candidate> on_b = candidates(eliminate(*b.curve, *a.curve), b);
-    for (const Candidate& s : on_a) {
-        for (const Candidate& t : on_b) {
-            if (near(s.x, t.x) && near(s.y, t.y)) hits.push_back({to_double(s.t), to_double(t.t), {s.t, t.t}});
-        }
-    }
-    return ExactOutcome::Done;
-}
-
 std::optional<Interval> parameter_of_point(const Curve& c, IntPoint p, const Interval& range) {
     const bool x_first = c.x.magnitude >= c.y.magnitude;
     const Polynomial px = minus(power_basis(c, Axis::X), to_mpz(p.x)), py = minus(power_basis(c, Axis::Y), to_mpz(p.y));
     const Polynomial &along = x_first ? px : py, &across = x_first ? py : px;
     const mpq_class lo = mpq_class(range.lo) - budget::kBesideRange, hi = mpq_class(range.hi) + budget::kBesideRange;
     for (const auto& [t0, t1] : isolate_roots(along, lo, hi, 2 * budget::kRefineBits)) {
-        if (sign_at(across, {along, t0, t1}) == 0) return to_double({t0, t1});
+        if (sign_at(across, {along, t0, t1}) == 0) return to_interval({t0, t1});
     }
     return {};
 }
 
-std::vector<mpz_class> double_point_polynomial(const Curve& c) {
+std::optional<DoublePoint> singular_point(const Curve& c) {
     // (C(s) − C(t))/(s − t) = 0: C3(σ² − π) + C2·σ + C1 = 0 with σ = s + t, π = s·t; crossed with C3 it is linear in σ.
     const Vectors v(c);
     const mpz_class c23 = v.cross(2, 3), c13 = v.cross(1, 3);
     if (v.degree < 3 || c23 == 0) return {};
-    mpq_class sum(-c13, c23);
-    sum.canonicalize();
+    DoublePoint out;
+    out.sum = mpq_class(-c13, c23);
+    out.sum.canonicalize();
     const bool use_x = v.x[3] != 0;
     const mpq_class c1(use_x ? v.x[1] : v.y[1]), c2(use_x ? v.x[2] : v.y[2]), c3(use_x ? v.x[3] : v.y[3]);
-    const mpq_class product = sum * sum + (c2 * sum + c1) / c3;
-    if (sum * sum - 4 * product <= 0) return {};
-    const mpz_class scale = sum.get_den() * product.get_den();
-    const mpq_class linear = -sum * scale, constant = product * scale;
+    out.product = out.sum * out.sum + (c2 * out.sum + c1) / c3;
+    // C(t) modulo t² − σt + π: the linear term vanishes, the rest is the point.
+    const auto rest = [&](const std::array<mpz_class, 4>& k) {
+        return mpq_class(k[0] - out.product * (k[2] + out.sum * k[3]));
+    };
+    out.x = rest(v.x), out.y = rest(v.y);
+    return out;
+}
+
+std::vector<mpz_class> double_point_polynomial(const Curve& c) {
+    const std::optional<DoublePoint> p = singular_point(c);
+    if (!p || p->discriminant_sign() <= 0) return {};
+    const mpz_class scale = p->sum.get_den() * p->product.get_den();
+    const mpq_class linear = -p->sum * scale, constant = p->product * scale;
     return {constant.get_num(), linear.get_num(), scale};
 }
 
@@ -210,7 +163,7 @@ std::optional<ExactHit> double_point(const Curve& c) {
     const auto roots = isolate_roots(double_point_polynomial(c), 0, 1, 2 * budget::kRefineBits);
     if (roots.size() != 2) return {};
     const RationalRange s{roots[0].first, roots[0].second}, t{roots[1].first, roots[1].second};
-    return ExactHit{to_double(s), to_double(t), {s, t}};
+    return ExactHit{to_interval(s), to_interval(t), {s, t}};
 }
 
 int compare_positions_exact(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level) {

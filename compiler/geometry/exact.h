@@ -6,6 +6,7 @@
 #include <gmpxx.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compiler/geometry/curve.h"
@@ -32,6 +33,11 @@ struct SupportMap {
 /// Exact; true only for degree ≥ 2 (lines are matched by planar/arcs).
 bool same_support(const Curve& a, const Curve& b, SupportMap& map);
 
+/// A common point: enclosures of its parameters on a and b, each containing exactly one.
+struct Contact {
+    Interval s, t;
+};
+
 struct RationalRange {
     mpq_class lo, hi;
 };
@@ -45,10 +51,21 @@ struct ExactHit {
     NarrowContact narrow;
 };
 
-enum class ExactOutcome { Done, CommonComponent };
+enum class ExactOutcome { Done, CommonComponent, Undecided };
 
-/// All common points of two monotone stretches whose algebraic curves differ; parameters enclosed to kRefineBits.
-ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits);
+/// Common points of two monotone stretches whose algebraic curves differ, each decided exactly; parameters enclosed to
+/// kRefineBits. Those of `known` contacts with an exact parameter (0 or 1) are left out.
+ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits,
+                             std::span<const Contact> known = {});
+
+/// The singular point of a cubic: s + t and s·t of its parameters. They are real and different where the cubic crosses
+/// itself, equal at a cusp, complex where the point is isolated.
+struct DoublePoint {
+    mpq_class sum, product, x, y;
+    [[nodiscard]] int discriminant_sign() const { return sgn(sum * sum - 4 * product); }
+};
+/// None for lines, quadratics, and cubics whose singular point is at infinity.
+std::optional<DoublePoint> singular_point(const Curve& c);
 
 /// The parameters s < t in (0,1) with C(s) = C(t), if the cubic crosses itself there (sum and product of s and t are
 /// rational; a cusp or an isolated point gives none).

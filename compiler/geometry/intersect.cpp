@@ -68,19 +68,19 @@ class Filter {
     }
 
     PairOutcome run(std::vector<Contact>& found) {
-        if (apart(whole_, margin(0))) return PairOutcome::Certified;
-        std::vector<Pair> stack{whole_};
-        int boxes = 0;
-        while (!stack.empty()) {
-            const Pair pair = stack.back();
+        std::vector<Pair> stack;
+        Pair pair = whole_;
+        for (int boxes = 1; boxes <= budget::kFilterMaxBoxes; ++boxes) {
+            if (!decided(pair)) {
+                if (undecidable_ || !subdivide(pair, stack)) return PairOutcome::Undecided;
+            } else if (stack.empty()) {
+                found.insert(found.end(), hits_.begin(), hits_.end());
+                return PairOutcome::Certified;
+            }
+            pair = stack.back();
             stack.pop_back();
-            if (++boxes > budget::kFilterMaxBoxes) return PairOutcome::Undecided;
-            if (decided(pair)) continue;
-            if (undecidable_) return PairOutcome::Undecided;
-            if (!subdivide(pair, stack)) return PairOutcome::Undecided;
         }
-        found.insert(found.end(), hits_.begin(), hits_.end());
-        return PairOutcome::Certified;
+        return PairOutcome::Undecided;
     }
 
     /// The point lies beyond the strip that holds the polygon.

@@ -12,11 +12,6 @@
 
 namespace fetexc {
 
-/// A common point: enclosures of its parameters on a and b, each containing exactly one.
-struct Contact {
-    Interval s, t;
-};
-
 /// Krawczyk operator for two equations in two unknowns: f encloses the residual in the middle of the box of radii (rs,
 /// rt), a11 … a22 the Jacobian over it. True: the box is mapped strictly into itself and holds exactly one zero.
 bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,

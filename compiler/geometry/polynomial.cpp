@@ -101,4 +101,21 @@ mpq_class evaluate(const Polynomial& p, const mpq_class& t) {
     return v;
 }
 
+RationalRange evaluate_over(const Polynomial& p, const RationalRange& t) {
+    const mpq_class mid = (t.lo + t.hi) / 2, half = (t.hi - t.lo) / 2;
+    mpq_class bound = 0, power = 1;
+    const mpq_class reach = std::max(mpq_class(abs(t.lo)), mpq_class(abs(t.hi)));
+    for (std::size_t i = 1; i < p.size(); ++i) {
+        bound += abs(p[i]) * static_cast<unsigned long>(i) * power;
+        power *= reach;
+    }
+    const mpq_class v = evaluate(p, mid), w = bound * half;
+    return {v - w, v + w};
+}
+
+Interval to_interval(const RationalRange& v) {
+    // get_d truncates towards zero: one unit each way encloses.
+    return {widen_down(v.lo.get_d()), widen_up(v.hi.get_d())};
+}
+
 } // namespace fetexc

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "compiler/geometry/curve.h"
+#include "compiler/geometry/exact.h"
 
 namespace fetexc {
 
@@ -33,11 +33,17 @@ Polynomial power_basis(const Curve& c, Axis axis);
 Polynomial eliminate(const Curve& a, const Curve& b);
 
 mpq_class evaluate(const Polynomial& p, const mpq_class& t);
+/// Enclosure of the values over a range: in the middle, plus a bound of the derivative times half the width.
+RationalRange evaluate_over(const Polynomial& p, const RationalRange& t);
+/// Rounded outwards.
+Interval to_interval(const RationalRange& v);
 
 /// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's
 /// algebraic kernel.
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
                                                            const mpq_class& hi, int bits);
+/// The same for all real roots.
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits);
 
 /// A number known exactly: the only root of the polynomial within [lo, hi].
 struct AlgebraicNumber {

@@ -264,16 +264,15 @@ PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
 
 PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {
     const Curve& c = *s.curve;
-    PointEnclosure p = plain_point(c, t);
-    if (p.width() > budget::kPointWidth * size_of(c)) {
+    Interval across = value_over(c, other(axis), t);
+    if (across.width() > budget::kPointWidth * size_of(c)) {
         const Polynomial q = minus(power_basis(c, axis), mpz_class(v));
         if (const std::optional<Dyadic> root = narrow_root(q, t, budget::kPreciseBits)) {
             t = range_of(*root);
-            p = point_at(c, *root);
+            across = coordinate_at(c, other(axis), *root);
         }
     }
-    (axis == Axis::X ? p.x : p.y) = v;
-    return p;
+    return axis == Axis::X ? PointEnclosure{v, across} : PointEnclosure{across, v};
 }
 
 PointEnclosure extremum_point(const Curve& c, Interval& t) {

@@ -29,12 +29,30 @@ Kernel::Polynomial_1 to_polynomial(const Polynomial& p) {
     return {coefficients.begin(), coefficients.end()};
 }
 
-std::vector<Kernel::Algebraic_real_1> solve(const Kernel& kernel, const Polynomial& p, const mpq_class& lo,
-                                            const mpq_class& hi) {
+using Roots = std::vector<Kernel::Algebraic_real_1>;
+
+Roots solve(const Kernel& kernel, const Polynomial& p, const mpq_class& lo, const mpq_class& hi) {
     const Kernel::Polynomial_1 square_free = kernel.make_square_free_1_object()(to_polynomial(p));
-    std::vector<Kernel::Algebraic_real_1> roots;
+    Roots roots;
     kernel.solve_1_object()(square_free, true, to_bound(lo), to_bound(hi), std::back_inserter(roots));
     return roots;
+}
+
+Roots solve(const Kernel& kernel, const Polynomial& p) {
+    const Kernel::Polynomial_1 square_free = kernel.make_square_free_1_object()(to_polynomial(p));
+    Roots roots;
+    kernel.solve_1_object()(square_free, true, std::back_inserter(roots));
+    return roots;
+}
+
+std::vector<std::pair<mpq_class, mpq_class>> approximate(const Kernel& kernel, const Roots& roots, int bits) {
+    const auto narrow = kernel.approximate_absolute_1_object();
+    std::vector<std::pair<mpq_class, mpq_class>> out;
+    for (const auto& root : roots) {
+        const auto bounds = narrow(root, bits);
+        out.emplace_back(to_mpq(bounds.first), to_mpq(bounds.second));
+    }
+    return out;
 }
 
 /// The root of a linear polynomial.
@@ -48,16 +66,17 @@ mpq_class rational_root(const Polynomial& p) {
 
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
                                                            const mpq_class& hi, int bits) {
-    std::vector<std::pair<mpq_class, mpq_class>> out;
-    if (p.size() < 2) return out;
+    if (p.size() < 2) return {};
     const std::lock_guard lock(mutex);
     const Kernel kernel;
-    const auto approximate = kernel.approximate_absolute_1_object();
-    for (const auto& root : solve(kernel, p, lo, hi)) {
-        const auto bounds = approximate(root, bits);
-        out.emplace_back(to_mpq(bounds.first), to_mpq(bounds.second));
-    }
-    return out;
+    return approximate(kernel, solve(kernel, p, lo, hi), bits);
+}
+
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits) {
+    if (p.size() < 2) return {};
+    const std::lock_guard lock(mutex);
+    const Kernel kernel;
+    return approximate(kernel, solve(kernel, p), bits);
 }
 
 std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumber& b) {

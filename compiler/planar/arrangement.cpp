@@ -118,9 +118,10 @@ class PairTest {
             return;
         }
         std::vector<ExactHit> hits;
-        intersect_exact(sa, sb, hits);
+        if (intersect_exact(sa, sb, hits, known_) == ExactOutcome::Undecided && !out_.undecided)
+            out_.undecided = set_.vertices[a.v0];
         for (const ExactHit& h : hits)
-            add(ia, ib, {h.s, h.t}, &h.narrow); // those that are known turn out to be one vertex with it
+            add(ia, ib, {h.s, h.t}, &h.narrow); // a known one that is left turns out to be one vertex with it
     }
 
     /// Two stretches of one cubic: its double point is the only one they can share, beside an end.

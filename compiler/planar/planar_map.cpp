@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "compiler/diagnostics.h"
+#include "compiler/parallel.h"
 #include "compiler/planar/exact_points.h"
 
 namespace fetexc {
@@ -40,20 +41,34 @@ void add_winding(Windings& w, std::uint32_t shape, std::int32_t change) {
     }
 }
 
-/// Walks the edges over the grid.
-class PlanarMap::Builder {
+/// Walks a chunk of the edges over the grid. Chunks know nothing of each other: a node that one makes is numbered from
+/// the number of the map's vertices on, until they are joined.
+class PlanarMap::EdgeWalk {
   public:
-    Builder(PlanarMap& map, PlanarStats& stats) : map_(map), grid_(map.grid_), stats_(stats) {}
+    explicit EdgeWalk(const PlanarMap& map)
+        : map_(map), grid_(map.grid_), vertices_(static_cast<std::uint32_t>(map.arrangement_.set.vertices.size())) {}
 
-    /// Returns a point whose position on the grid couldn't be decided.
-    std::optional<PointEnclosure> run() {
-        add_vertices();
-        for (std::uint32_t e = 0; e < map_.arrangement_.edges.size(); ++e)
+    void run(std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t e = first; e < last; ++e)
             walk(e);
-        sort_side_edges();
-        sort_into_texels();
-        sort_steps();
-        return undecided_;
+    }
+
+    struct Piece {
+        SubEdge sub;
+        std::uint32_t texel;
+    };
+    std::vector<GridNode> nodes; ///< with line_crossings, one each
+    std::vector<LineCrossing> line_crossings;
+    std::vector<Piece> pieces;
+    std::vector<SideEdge> side_edges;
+    std::vector<RowStep> steps;
+    std::optional<PointEnclosure> undecided; ///< a point whose position on the grid couldn't be decided
+
+    /// A node whose coordinates on grid lines are exactly the lines'.
+    static GridNode node_at(const Grid& g, const Interval& x, const Interval& y, HalfStep hx, HalfStep hy) {
+        const Interval xr = is_line(hx) ? Interval(on_line(hx, g.px)) : x,
+                       yr = is_line(hy) ? Interval(on_line(hy, g.py)) : y;
+        return {xr.mid(), yr.mid(), xr, yr, hx, hy};
     }
 
   private:
@@ -62,39 +77,14 @@ class PlanarMap::Builder {
         Interval t;
         std::uint32_t node = 0;
     };
-    struct Piece {
-        SubEdge sub;
-        std::uint32_t texel;
-    };
 
-    std::uint32_t add_node(const Interval& x, const Interval& y, HalfStep hx, HalfStep hy) {
-        const auto n = static_cast<std::uint32_t>(map_.nodes_.size());
-        const Interval xr = is_line(hx) ? Interval(on_line(hx, grid_.px)) : x,
-                       yr = is_line(hy) ? Interval(on_line(hy, grid_.py)) : y;
-        map_.nodes_.push_back({xr.mid(), yr.mid(), xr, yr, hx, hy});
-        return n;
-    }
-
-    int decide(std::optional<int> side, const Interval& x, const Interval& y) {
-        if (!side && !undecided_) undecided_ = PointEnclosure{x, y};
-        return side.value_or(0);
-    }
-
-    void add_vertices() {
-        const ArcSet& set = map_.arrangement_.set;
-        map_.nodes_.reserve(set.vertices.size() * 2);
-        for (const Vertex& v : set.vertices) {
-            const auto side = [&](Axis axis) {
-                return [&, axis](std::int64_t level) { return decide(side_of_level(set, v, axis, level), v.x, v.y); };
-            };
-            add_node(v.x, v.y, half_step(v.x, grid_.px, grid_.width, side(Axis::X)),
-                     half_step(v.y, grid_.py, grid_.height, side(Axis::Y)));
-        }
+    [[nodiscard]] const GridNode& node(std::uint32_t n) const {
+        return n < vertices_ ? map_.nodes_[n] : nodes[n - vertices_];
     }
 
     void walk(std::uint32_t e) {
         const Edge& edge = map_.arrangement_.edges[e];
-        const GridNode a = map_.nodes_[edge.va], b = map_.nodes_[edge.vb];
+        const GridNode &a = node(edge.va), &b = node(edge.vb);
         if (outside(a, b)) return;
         if (std::max(a.hx, b.hx) < 0) return left_of_canvas(e, a, b);
         const Stretch s = map_.arrangement_.stretch_of(edge);
@@ -121,14 +111,16 @@ class PlanarMap::Builder {
         const bool vertical = axis == Axis::X;
         const HalfStep from = vertical ? a.hx : a.hy, to = vertical ? b.hx : b.hy;
         const HalfStep step = to > from ? 1 : -1, dx = b.hx > a.hx ? 1 : -1, dy = b.hy > a.hy ? 1 : -1;
+        Interval rest = s.range; // from the last crossing on
         for (HalfStep h = from + step; h != to && from != to; h += step) {
             if (!is_line(h)) continue;
             const std::int64_t level = (vertical ? grid_.px : grid_.py) * (h / 2);
             const auto v = static_cast<double>(level);
-            Interval t = parameter_at(*s.curve, axis, s.range, vertical ? s.x_increasing : s.y_increasing, v);
+            Interval t = parameter_at(*s.curve, axis, rest, vertical ? s.x_increasing : s.y_increasing, v);
             const PointEnclosure p = level_point(s, axis, v, t);
+            rest.lo = t.lo;
             const auto side = [&](std::int64_t other) {
-                return decide(side_of_level(*s.curve, axis, level, t, other), p.x, p.y);
+                return decide(side_of_level(*s.curve, axis, level, t, other), p);
             };
             HalfStep hx = h, hy = h;
             if (vertical)
@@ -141,10 +133,15 @@ class PlanarMap::Builder {
                                       [&](const Crossing& c) { return c.order == order; }))
                 continue;
             if (at_end(hx, hy, a) || at_end(hx, hy, b)) continue;
-            ++stats_.grid_crossings;
-            map_.line_crossings_.push_back({e, axis, level, t});
-            crossings_.push_back({order, t, add_node(p.x, p.y, hx, hy)});
+            crossings_.push_back({order, t, vertices_ + static_cast<std::uint32_t>(nodes.size())});
+            line_crossings.push_back({e, axis, level, t});
+            nodes.push_back(node_at(grid_, p.x, p.y, hx, hy));
         }
+    }
+
+    int decide(std::optional<int> side, const PointEnclosure& p) {
+        if (!side && !undecided) undecided = p;
+        return side.value_or(0);
     }
 
     static bool at_end(HalfStep hx, HalfStep hy, const GridNode& n) {
@@ -152,7 +149,7 @@ class PlanarMap::Builder {
     }
 
     void emit(std::uint32_t e, const Crossing& p, const Crossing& q) {
-        const GridNode &a = map_.nodes_[p.node], &b = map_.nodes_[q.node];
+        const GridNode &a = node(p.node), &b = node(q.node);
         if (a.hx == b.hx && is_line(a.hx)) {
             add_steps(e, a, b, static_cast<std::uint32_t>(a.hx / 2));
             return add_side_edge(Axis::X, p.node, q.node);
@@ -163,18 +160,18 @@ class PlanarMap::Builder {
         if (column < 0 || row < 0 || column >= static_cast<HalfStep>(grid_.width) ||
             row >= static_cast<HalfStep>(grid_.height))
             return;
-        pieces_.push_back({{e, {p.t.lo, q.t.hi}, p.node, q.node},
-                           static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column)});
+        pieces.push_back({{e, {p.t.lo, q.t.hi}, p.node, q.node},
+                          static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column)});
     }
 
     /// Only sides between two texels; the canvas border has nothing beyond it.
     void add_side_edge(Axis across, std::uint32_t n0, std::uint32_t n1) {
-        const GridNode &a = map_.nodes_[n0], &b = map_.nodes_[n1];
+        const GridNode &a = node(n0), &b = node(n1);
         const HalfStep column = std::min(a.hx, b.hx) >> 1, row = std::min(a.hy, b.hy) >> 1;
         const bool inner = column >= (across == Axis::X ? 1 : 0) && row >= (across == Axis::Y ? 1 : 0) &&
                            column < static_cast<HalfStep>(grid_.width) && row < static_cast<HalfStep>(grid_.height);
         if (!inner) return;
-        map_.side_edges_.push_back(
+        side_edges.push_back(
             {across, static_cast<std::uint32_t>(row) * grid_.width + static_cast<std::uint32_t>(column), n0, n1});
     }
 
@@ -188,10 +185,95 @@ class PlanarMap::Builder {
         const std::int32_t sign = map_.arrangement_.set.arcs[arc].y_increasing ? 1 : -1;
         for (HalfStep j = std::max<HalfStep>(0, (lo + 1) / 2); 2 * j < hi && j < static_cast<HalfStep>(grid_.height);
              ++j) {
-            map_.steps_.push_back({static_cast<std::uint32_t>(j), line, arc, sign});
+            steps.push_back({static_cast<std::uint32_t>(j), line, arc, sign});
         }
         const HalfStep bottom = 2 * static_cast<HalfStep>(grid_.height);
-        if (lo < bottom && hi >= bottom) map_.steps_.push_back({grid_.height, line, arc, sign});
+        if (lo < bottom && hi >= bottom) steps.push_back({grid_.height, line, arc, sign});
+    }
+
+    const PlanarMap& map_;
+    const Grid& grid_;
+    std::uint32_t vertices_;
+    std::vector<Crossing> crossings_;
+};
+
+/// Cuts the arrangement at the grid, chunk by chunk, and joins the chunks in order: the same for any number of threads.
+class PlanarMap::Builder {
+  public:
+    Builder(PlanarMap& map, unsigned threads, PlanarStats& stats)
+        : map_(map), grid_(map.grid_), threads_(threads), stats_(stats) {}
+
+    /// Returns a point whose position on the grid couldn't be decided.
+    std::optional<PointEnclosure> run() {
+        add_vertices();
+        walk_edges();
+        for (EdgeWalk& w : walks_)
+            join(w);
+        sort_side_edges();
+        sort_into_texels();
+        sort_steps();
+        return undecided_;
+    }
+
+  private:
+    static constexpr std::size_t kChunk = 1024;
+    static std::size_t chunks(std::size_t items) { return (items + kChunk - 1) / kChunk; }
+
+    void add_vertices() {
+        const ArcSet& set = map_.arrangement_.set;
+        map_.nodes_.resize(set.vertices.size());
+        std::vector<std::optional<PointEnclosure>> undecided(chunks(set.vertices.size()));
+        parallel_for(undecided.size(), threads_, [&](std::size_t c) {
+            for (std::size_t k = c * kChunk; k < std::min(set.vertices.size(), (c + 1) * kChunk); ++k) {
+                const Vertex& v = set.vertices[k];
+                const auto side = [&](Axis axis) {
+                    return [&, axis](std::int64_t level) {
+                        const std::optional<int> s = side_of_level(set, v, axis, level);
+                        if (!s && !undecided[c]) undecided[c] = PointEnclosure{v.x, v.y};
+                        return s.value_or(0);
+                    };
+                };
+                map_.nodes_[k] =
+                    EdgeWalk::node_at(grid_, v.x, v.y, half_step(v.x, grid_.px, grid_.width, side(Axis::X)),
+                                      half_step(v.y, grid_.py, grid_.height, side(Axis::Y)));
+            }
+        });
+        for (const auto& p : undecided)
+            undecided_ = undecided_ ? undecided_ : p;
+    }
+
+    void walk_edges() {
+        const std::size_t edges = map_.arrangement_.edges.size();
+        for (std::size_t c = 0; c < chunks(edges); ++c)
+            walks_.emplace_back(map_);
+        parallel_for(walks_.size(), threads_, [&](std::size_t c) {
+            walks_[c].run(static_cast<std::uint32_t>(c * kChunk),
+                          static_cast<std::uint32_t>(std::min(edges, (c + 1) * kChunk)));
+        });
+    }
+
+    void join(EdgeWalk& w) {
+        const auto vertices = static_cast<std::uint32_t>(map_.arrangement_.set.vertices.size());
+        const std::uint32_t shift = static_cast<std::uint32_t>(map_.nodes_.size()) - vertices;
+        const auto renumber = [&](std::uint32_t& n) {
+            if (n >= vertices) n += shift;
+        };
+        for (EdgeWalk::Piece& p : w.pieces)
+            renumber(p.sub.n0), renumber(p.sub.n1);
+        for (SideEdge& e : w.side_edges)
+            renumber(e.n0), renumber(e.n1);
+        append(map_.nodes_, w.nodes);
+        append(map_.line_crossings_, w.line_crossings);
+        append(map_.side_edges_, w.side_edges);
+        append(map_.steps_, w.steps);
+        undecided_ = undecided_ ? undecided_ : w.undecided;
+        stats_.grid_crossings = map_.line_crossings_.size();
+    }
+
+    /// Moves, and frees the source.
+    template <class T> static void append(std::vector<T>& to, std::vector<T>& from) {
+        to.insert(to.end(), from.begin(), from.end());
+        from = {};
     }
 
     void sort_side_edges() {
@@ -203,13 +285,18 @@ class PlanarMap::Builder {
     void sort_into_texels() {
         const std::size_t texels = static_cast<std::size_t>(grid_.width) * grid_.height;
         map_.texel_start_.assign(texels + 1, 0);
-        for (const Piece& p : pieces_)
-            ++map_.texel_start_[p.texel + 1];
+        for (const EdgeWalk& w : walks_) {
+            for (const EdgeWalk::Piece& p : w.pieces)
+                ++map_.texel_start_[p.texel + 1];
+        }
         std::partial_sum(map_.texel_start_.begin(), map_.texel_start_.end(), map_.texel_start_.begin());
         std::vector<std::uint32_t> next(map_.texel_start_.begin(), map_.texel_start_.end() - 1);
-        map_.sub_edges_.resize(pieces_.size());
-        for (const Piece& p : pieces_)
-            map_.sub_edges_[next[p.texel]++] = p.sub;
+        map_.sub_edges_.resize(map_.texel_start_.back());
+        for (EdgeWalk& w : walks_) {
+            for (const EdgeWalk::Piece& p : w.pieces)
+                map_.sub_edges_[next[p.texel]++] = p.sub;
+            w.pieces = {};
+        }
     }
 
     void sort_steps() {
@@ -224,9 +311,9 @@ class PlanarMap::Builder {
 
     PlanarMap& map_;
     const Grid& grid_;
+    unsigned threads_;
     PlanarStats& stats_;
-    std::vector<Crossing> crossings_;
-    std::vector<Piece> pieces_;
+    std::vector<EdgeWalk> walks_;
     std::optional<PointEnclosure> undecided_;
 };
 
@@ -236,7 +323,7 @@ Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigne
     PlanarMap map;
     map.grid_ = grid;
     map.arrangement_ = std::move(arrangement).value();
-    if (const auto undecided = Builder(map, stats).run()) {
+    if (const auto undecided = Builder(map, threads, stats).run()) {
         return Error{ErrorClass::Runtime, diag::kPlanarInconsistent,
                      "the side of a grid line can't be decided; please report this file",
                      grid.texel_name(undecided->x.mid(), undecided->y.mid())};

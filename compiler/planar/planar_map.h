@@ -112,6 +112,7 @@ class PlanarMap {
     [[nodiscard]] bool runs_down(const SubEdge& s) const;
 
   private:
+    class EdgeWalk;
     class Builder;
     [[nodiscard]] std::span<const RowStep> steps_of(std::uint32_t row) const;
     void apply(Windings& w, const RowStep& step) const;

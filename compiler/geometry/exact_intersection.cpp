@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Common points of two stretches through resultants. A root s of R_a says that A(s) lies on B's algebraic curve;
+/// whether it lies on the stretch, and where, is decided by exclusion: A(s) is one of finitely many places, the points
+/// of B at the real roots of R_b and B's isolated point, and all but one of them separate from it at some precision.
+#include <algorithm>
+
+#include "compiler/geometry/exact.h"
+#include "compiler/geometry/polynomial.h"
+
+namespace fetexc {
+namespace {
+
+using Roots = std::vector<RationalRange>;
+
+Roots to_ranges(const std::vector<std::pair<mpq_class, mpq_class>>& roots) {
+    Roots out;
+    for (const auto& [lo, hi] : roots)
+        out.push_back({lo, hi});
+    return out;
+}
+
+struct PointRange {
+    RationalRange x, y;
+};
+
+bool overlap(const RationalRange& a, const RationalRange& b) { return a.lo <= b.hi && b.lo <= a.hi; }
+bool overlap(const PointRange& a, const PointRange& b) { return overlap(a.x, b.x) && overlap(a.y, b.y); }
+
+/// A curve with its coordinates as polynomials.
+struct Coordinates {
+    Polynomial x, y;
+    explicit Coordinates(const Curve& c) : x(power_basis(c, Axis::X)), y(power_basis(c, Axis::Y)) {}
+    [[nodiscard]] PointRange at(const RationalRange& t) const { return {evaluate_over(x, t), evaluate_over(y, t)}; }
+};
+
+/// Divides by (t − v), v = 0 or 1, as often as it goes.
+Polynomial without_root(Polynomial p, int v) {
+    while (p.size() > 1 && evaluate(p, v) == 0) {
+        for (std::size_t i = p.size() - 1; v == 1 && i > 1; --i) // synthetic division
+            p[i - 1] += p[i];
+        p.erase(p.begin());
+    }
+    return p;
+}
+
+std::optional<int> exact_end(const Interval& t) {
+    if (t.lo != t.hi || (t.lo != 0 && t.lo != 1)) return {};
+    return static_cast<int>(t.lo);
+}
+
+class ExactIntersection {
+  public:
+    ExactIntersection(const Stretch& a, const Stretch& b, std::span<const Contact> known)
+        : a_(a), b_(b), known_(known), on_a_(*a.curve), on_b_(*b.curve) {}
+
+    ExactOutcome run(std::vector<ExactHit>& hits) {
+        ra_ = eliminate(*a_.curve, *b_.curve);
+        if (ra_.empty()) return ExactOutcome::CommonComponent;
+        for (const Contact& k : known_) {
+            if (const auto end = exact_end(k.s)) ra_ = without_root(ra_, *end);
+        }
+        int bits = 2 * budget::kRefineBits;
+        Roots s = roots_on_a(bits);
+        if (s.empty()) return ExactOutcome::Done;
+        rb_ = eliminate(*b_.curve, *a_.curve);
+        singular_ = singular_point(*b_.curve);
+        Roots t = to_ranges(isolate_roots(rb_, bits));
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            while (!place(s[k], t, hits)) {
+                bits *= 2;
+                if (bits > budget::kRefineBitsLimit) return ExactOutcome::Undecided;
+                s = roots_on_a(bits), t = to_ranges(isolate_roots(rb_, bits));
+            }
+        }
+        return ExactOutcome::Done;
+    }
+
+  private:
+    [[nodiscard]] Roots roots_on_a(int bits) const {
+        return to_ranges(isolate_roots(ra_, mpq_class(a_.range.lo), mpq_class(a_.range.hi), bits));
+    }
+
+    /// False: more than one place is left.
+    bool place(const RationalRange& s, const Roots& t, std::vector<ExactHit>& hits) const {
+        const PointRange p = on_a_.at(s);
+        const bool isolated = singular_ && singular_->discriminant_sign() < 0 &&
+                              overlap(p, {{singular_->x, singular_->x}, {singular_->y, singular_->y}});
+        std::vector<const RationalRange*> places;
+        for (const RationalRange& range : t) {
+            if (overlap(p, on_b_.at(range))) places.push_back(&range);
+        }
+        if (isolated && !places.empty()) return false;
+        if (places.size() > 2 || (places.size() == 2 && !at_double_point(*places[0], *places[1]))) return false;
+        const RationalRange stretch{mpq_class(b_.range.lo), mpq_class(b_.range.hi)};
+        for (const RationalRange* range : places) {
+            if (overlap(*range, stretch) && !is_known(*range))
+                hits.push_back({to_interval(s), to_interval(*range), {s, *range}});
+        }
+        return true;
+    }
+
+    /// Both parameters give the point where B crosses itself, so they are one place.
+    [[nodiscard]] bool at_double_point(const RationalRange& t, const RationalRange& u) const {
+        if (!singular_ || singular_->discriminant_sign() <= 0) return false;
+        const auto passes = [&](const RationalRange& r) {
+            const auto on = [&](const Polynomial& p, const mpq_class& v) {
+                Polynomial q;
+                for (const mpz_class& c : p)
+                    q.push_back(c * v.get_den());
+                return sign_at(minus(q, v.get_num()), {rb_, r.lo, r.hi}) == 0;
+            };
+            return on(on_b_.x, singular_->x) && on(on_b_.y, singular_->y);
+        };
+        return passes(t) && passes(u);
+    }
+
+    /// The only root in the range is a known contact's exact parameter.
+    [[nodiscard]] bool is_known(const RationalRange& t) const {
+        return std::any_of(known_.begin(), known_.end(), [&](const Contact& k) {
+            const auto end = exact_end(k.t);
+            return end && t.lo <= *end && *end <= t.hi && evaluate(rb_, *end) == 0;
+        });
+    }
+
+    const Stretch &a_, &b_;
+    std::span<const Contact> known_;
+    Coordinates on_a_, on_b_;
+    Polynomial ra_, rb_;
+    std::optional<DoublePoint> singular_; ///< of b
+};
+
+} // namespace
+
+ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits,
+                             std::span<const Contact> known) {
+    return ExactIntersection(a, b, known).run(hits);
+}
+
+} // namespace fetexc
