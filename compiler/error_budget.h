@@ -50,6 +50,10 @@ inline constexpr int kRefineBitsLimit = 4096;
 /// (geometry/precise). Well-conditioned crossings are at about 2^-44.
 inline constexpr double kPointWidth = 0x1p-40;
 
+/// Part of a coordinate: what the roundings of plain evaluation to the absolute position add up to (three, widened to
+/// both sides), doubled.
+inline constexpr double kRoundingWidth = 16 * kUnitRoundoff;
+
 /// Bits of the parameters used for that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
 inline constexpr int kPreciseBits = 128;
 

@@ -17,10 +17,11 @@ constexpr std::uint32_t kFlagBands = 1, kFlagInterpolated = 2, kFlagTranslucent 
 using Words = std::vector<std::uint32_t>;
 
 std::vector<std::uint8_t> to_bytes(const Words& words) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(words.size() * 4);
-    for (const std::uint32_t word : words)
-        append_le(bytes, word);
+    std::vector<std::uint8_t> bytes(words.size() * 4);
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        for (std::size_t i = 0; i < 4; ++i)
+            bytes[4 * k + i] = static_cast<std::uint8_t>(words[k] >> (8 * i));
+    }
     return bytes;
 }
 

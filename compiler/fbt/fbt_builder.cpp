@@ -63,8 +63,9 @@ class Builder {
   public:
     Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
             Compositor& compositor)
-        : scene_(scene), options_(options), map_(map), compositor_(compositor), corners_(map, scene, compositor),
-          sampler_(map, scene, compositor, corners_), progress_(progress, map.grid().height) {}
+        : scene_(scene), options_(options), map_(map), compositor_(compositor),
+          corners_(map, scene, compositor, options.threads), sampler_(map, scene, compositor, corners_),
+          progress_(progress, map.grid().height) {}
 
     Result<FbtBuild> run(CompileReport report, FbtRegions* regions) {
         const Grid& g = map_.grid();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/parallel.h"
+
 namespace fetexc {
 namespace {
 
@@ -29,13 +31,15 @@ CanvasPoint to_canvas(const Scene& scene, const Grid& grid, double x, double y) 
             y / static_cast<double>(grid.bottom()) * scene.extent.height};
 }
 
-CornerResults::CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor)
+CornerResults::CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor, unsigned threads)
     : map_(map), scene_(scene), compositor_(compositor), width_(map.grid().width) {
-    ResultLookup lookup(scene, compositor);
-    results_.reserve(static_cast<std::size_t>(width_ + 1) * (map.grid().height + 1));
-    for (std::uint32_t j = 0; j <= map.grid().height; ++j) {
-        map.along_row(j, [&](std::uint32_t, const Windings& w) { results_.push_back(lookup(w)); });
-    }
+    const std::size_t columns = std::size_t{width_} + 1, rows = std::size_t{map.grid().height} + 1;
+    results_.resize(columns * rows);
+    parallel_for(rows, threads, [&](std::size_t j) {
+        ResultLookup lookup(scene, compositor);
+        map.along_row(static_cast<std::uint32_t>(j),
+                      [&](std::uint32_t i, const Windings& w) { results_[j * columns + i] = lookup(w); });
+    });
 }
 
 Rgba CornerResults::color(std::uint32_t i, std::uint32_t j) const {

@@ -20,7 +20,7 @@ std::uint32_t pack_rgba8(const Rgba& premultiplied);
 /// The visible result at every texel's corner, (width+1)×(height+1): the texels' representative samples and the apron.
 class CornerResults {
   public:
-    CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor);
+    CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor, unsigned threads);
     [[nodiscard]] ResultId at(std::uint32_t i, std::uint32_t j) const {
         return results_[static_cast<std::size_t>(j) * (width_ + 1) + i];
     }

@@ -68,6 +68,14 @@ PointEnclosure plain_point(const Curve& c, const Interval& t) {
 
 double size_of(const Curve& c) { return std::max(c.x.magnitude, c.y.magnitude); }
 
+/// For a curve of that size; and no enclosure in doubles is narrower than a few roundings of the position itself.
+bool precise_enough(const Interval& v, double size) {
+    return v.width() <= std::max(budget::kPointWidth * size, budget::kRoundingWidth * v.magnitude());
+}
+bool precise_enough(const PointEnclosure& p, double size) {
+    return precise_enough(p.x, size) && precise_enough(p.y, size);
+}
+
 Interval meet(const Interval& a, const Interval& b) {
     const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
     return m.lo <= m.hi ? m : hull(a, b);
@@ -255,7 +263,7 @@ FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
     if (a.degree == 1 && b.degree == 1) return line_crossing(a, b);
     const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
-    if (plain.width() <= budget::kPointWidth * std::max(size_of(a), size_of(b))) return plain;
+    if (precise_enough(plain, std::max(size_of(a), size_of(b)))) return plain;
     ContactRefiner refiner(a, b, budget::kPreciseBits);
     if (!refiner.run(c)) return plain;
     c = {range_of(refiner.s()), range_of(refiner.t())};
@@ -265,7 +273,7 @@ PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
 PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {
     const Curve& c = *s.curve;
     Interval across = value_over(c, other(axis), t);
-    if (across.width() > budget::kPointWidth * size_of(c)) {
+    if (!precise_enough(across, size_of(c))) {
         const Polynomial q = minus(power_basis(c, axis), mpz_class(v));
         if (const std::optional<Dyadic> root = narrow_root(q, t, budget::kPreciseBits)) {
             t = range_of(*root);
@@ -277,7 +285,7 @@ PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {
 
 PointEnclosure extremum_point(const Curve& c, Interval& t) {
     const PointEnclosure plain = plain_point(c, t);
-    if (plain.width() <= budget::kPointWidth * size_of(c)) return plain;
+    if (precise_enough(plain, size_of(c))) return plain;
     const std::optional<Dyadic> root = narrow_extremum(c, t, budget::kPreciseBits);
     if (!root) return plain;
     t = range_of(*root);

@@ -85,6 +85,7 @@ class Preparer {
         merge_lines();
         const std::size_t first_curve = weighted_.size();
         merge_curves();
+        out_.curves.reserve(weighted_.size());
         for (const Weighted& w : weighted_)
             out_.curves.push_back(w.curve);
         emit_all(shared, first_curve);
@@ -215,6 +216,7 @@ class Preparer {
     };
 
     void emit_all(std::span<const SharedSupport> shared, std::size_t first_curve) {
+        ends_.reserve(2 * weighted_.size());
         std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
         std::vector<bool> grouped(weighted_.size(), false);
         for (const auto& [root, members] : groups) {

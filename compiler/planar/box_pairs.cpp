@@ -5,8 +5,31 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace fetexc {
+namespace {
+
+using IdPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Sorted: into buckets by the first id, then each bucket.
+IdPairs in_order(const IdPairs& pairs) {
+    std::vector<std::uint32_t> start;
+    for (const auto& [i, j] : pairs) {
+        if (start.size() < i + std::size_t{2}) start.resize(i + std::size_t{2}, 0);
+        ++start[i + 1];
+    }
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    IdPairs out(pairs.size());
+    std::vector<std::uint32_t> next = start;
+    for (const auto& p : pairs)
+        out[next[p.first]++] = p;
+    for (std::size_t i = 0; i + 1 < start.size(); ++i)
+        std::sort(out.begin() + start[i], out.begin() + start[i + 1]);
+    return out;
+}
+
+} // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_pairs(const std::vector<BoxItem>& items) {
     using Box =
@@ -22,8 +45,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping_pairs(const std
         const std::uint32_t i = a.handle()->id, j = b.handle()->id;
         pairs.emplace_back(std::min(i, j), std::max(i, j));
     });
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
+    return in_order(pairs);
 }
 
 } // namespace fetexc

@@ -62,11 +62,11 @@ std::uint32_t ReachabilityRow::add_empty(ResultId result) {
         return static_cast<std::uint32_t>(result_.size() - 1);
     }
     const std::uint32_t v = new_vertex(result);
-    const Parts left{{{2 * static_cast<HalfStep>(row_)}, v}};
-    if (next_ > 0) link_to_left(left);
+    scratch_.assign(1, {{2 * static_cast<HalfStep>(row_)}, v});
+    if (next_ > 0) link_to_left(scratch_);
     const LinePosition corner{2 * static_cast<HalfStep>(next_)};
     append(top_, corner, v), append(bottom_, corner, v);
-    right_ = left;
+    right_ = scratch_;
     run_ = true;
     ++next_;
     return v;
@@ -77,29 +77,29 @@ std::uint32_t ReachabilityRow::add_texel(const TexelMap& texel, std::span<const 
     const auto first = static_cast<std::uint32_t>(result_.size());
     for (const ResultId r : region_result)
         new_vertex(r);
-    if (next_ > 0) link_to_left(parts(texel, TexelSide::Left, region_of_face, first));
+    list_parts(texel, TexelSide::Left, region_of_face, first, scratch_);
+    if (next_ > 0) link_to_left(scratch_);
     for (const auto& [side, line] : {std::pair(TexelSide::Top, &top_), std::pair(TexelSide::Bottom, &bottom_)}) {
-        for (const Part& p : parts(texel, side, region_of_face, first))
+        list_parts(texel, side, region_of_face, first, scratch_);
+        for (const Part& p : scratch_)
             append(*line, p.from, p.vertex);
     }
-    right_ = parts(texel, TexelSide::Right, region_of_face, first);
+    list_parts(texel, TexelSide::Right, region_of_face, first, right_);
     run_ = false;
     ++next_;
     return first;
 }
 
-ReachabilityRow::Parts ReachabilityRow::parts(const TexelMap& texel, TexelSide side,
-                                              std::span<const std::uint32_t> region_of_face,
-                                              std::uint32_t first) const {
+void ReachabilityRow::list_parts(const TexelMap& texel, TexelSide side, std::span<const std::uint32_t> region_of_face,
+                                 std::uint32_t first, Parts& out) const {
     const bool vertical = side == TexelSide::Left || side == TexelSide::Right;
     const LinePosition corner{vertical ? texel.frame.top : texel.frame.left};
-    Parts out;
+    out.clear();
     for (const SidePart& p : texel.sweep.sides[static_cast<std::size_t>(side)]) {
         const LinePosition from =
             p.from == kNone ? corner : map_->position(texel.graph.nodes[p.from], vertical ? Axis::X : Axis::Y);
         append(out, from, first + region_of_face[p.face]);
     }
-    return out;
 }
 
 ReachabilityGraph::ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows) {

@@ -58,8 +58,9 @@ class ReachabilityRow {
                        const Visit& visit);
     std::uint32_t new_vertex(ResultId result);
     void link_to_left(const Parts& left);
-    [[nodiscard]] Parts parts(const TexelMap& texel, TexelSide side, std::span<const std::uint32_t> region_of_face,
-                              std::uint32_t first) const;
+    /// The texel's side, in parts; replaces `out`.
+    void list_parts(const TexelMap& texel, TexelSide side, std::span<const std::uint32_t> region_of_face,
+                    std::uint32_t first, Parts& out) const;
 
     const PlanarMap* map_ = nullptr;
     std::uint32_t row_ = 0, next_ = 0;  ///< next texel
@@ -67,7 +68,8 @@ class ReachabilityRow {
     std::vector<ResultId> result_;
     std::vector<ReachLink> links_;
     Parts top_, bottom_, right_; ///< right_: of the texel before next_
-    bool run_ = false;           ///< that texel had no visible edge
+    Parts scratch_;
+    bool run_ = false; ///< that texel had no visible edge
     std::optional<ReachConflict> conflict_;
 };
 

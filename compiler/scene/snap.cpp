@@ -65,6 +65,14 @@ Result<Clipped> clip_shapes(const std::vector<RawShape>& raw, Scene& scene) {
     Clipped out;
     const LatticeScale scale = lattice_scale(scene.extent);
     const GuardBox box = guard_box(scene.extent);
+    std::size_t segments = 0, contours = 0;
+    for (const RawShape& shape : raw) {
+        contours += shape.contours.size();
+        for (const CanvasContour& contour : shape.contours)
+            segments += contour.size() + 1;
+    }
+    out.segments.reserve(segments);
+    out.contours.reserve(contours);
     for (std::uint32_t shape = 0; shape < raw.size(); ++shape)
         for (const CanvasContour& contour : raw[shape].contours) {
             for (const CanvasSegment& s : contour)
@@ -98,6 +106,10 @@ bool vanishes(const Segment& s) {
 /// over.
 class TwinCurves {
   public:
+    explicit TwinCurves(std::size_t segments) {
+        chains_.reserve(segments);
+        known_.reserve(segments);
+    }
     void share(Segment& s) {
         if (s.degree == 1) return;
         const bool flipped = s.p[s.degree] < s.p[0];
@@ -111,13 +123,19 @@ class TwinCurves {
     static constexpr std::size_t kMaxTwins = 64;
 
     void adopt(Segment& s) {
-        std::vector<Segment>& known = curves_[key(s)];
-        for (const Segment& twin : known)
-            if (is_twin(twin, s)) {
-                s.p = twin.p;
+        const auto [it, fresh] = chains_.try_emplace(key(s), static_cast<std::uint32_t>(known_.size()));
+        if (fresh) return known_.push_back({s, kNone});
+        std::uint32_t k = it->second;
+        for (std::size_t twins = 1;; k = known_[k].next, ++twins) {
+            if (is_twin(known_[k].curve, s)) {
+                s.p = known_[k].curve.p;
                 return;
             }
-        if (known.size() < kMaxTwins) known.push_back(s);
+            if (twins == kMaxTwins) return;
+            if (known_[k].next == kNone) break;
+        }
+        known_[k].next = static_cast<std::uint32_t>(known_.size());
+        known_.push_back({s, kNone});
     }
     static bool is_twin(const Segment& twin, const Segment& s) {
         if (twin.degree != s.degree || twin.p[0] != s.p[0] || twin.p[s.degree] != s.p[s.degree]) return false;
@@ -130,7 +148,12 @@ class TwinCurves {
         const std::size_t a = LatticePointHash{}(s.p[0]), b = LatticePointHash{}(s.p[s.degree]);
         return {static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)};
     }
-    std::unordered_map<LatticePoint, std::vector<Segment>, LatticePointHash> curves_;
+    struct Known {
+        Segment curve;
+        std::uint32_t next = kNone; ///< with the same key
+    };
+    std::vector<Known> known_;
+    std::unordered_map<LatticePoint, std::uint32_t, LatticePointHash> chains_; ///< key → first
 };
 
 CanvasPoint shifted(CanvasPoint p, double dx, double dy) { return {p.x + dx, p.y + dy}; }
@@ -188,14 +211,14 @@ Status snap_shapes(const std::vector<RawShape>& raw, Scene& scene) {
     if (clipped.segments.size() >= kNone)
         return Error{ErrorClass::InvalidInput, diag::kSceneTooLarge, "more path segments than 32-bit indices hold", ""};
 
-    VertexMerge merge;
+    VertexMerge merge(clipped.segments.size());
     for (const CanvasSegment& s : clipped.segments) // contours are closed: every joint is one segment's start
         merge.add(snap(s.p[0]));
     merge.run();
     scene.stats.vertices_in += clipped.segments.size();
     scene.stats.vertices_merged += merge.merged();
 
-    TwinCurves twins;
+    TwinCurves twins(clipped.segments.size());
     scene.segments.clear();
     scene.segments.reserve(clipped.segments.size());
     scene.shapes.assign(raw.size(), Shape{});

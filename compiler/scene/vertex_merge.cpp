@@ -32,6 +32,13 @@ std::size_t LatticePointHash::operator()(const LatticePoint& p) const noexcept {
     return static_cast<std::size_t>(h ^ (h >> 31));
 }
 
+VertexMerge::VertexMerge(std::size_t points) {
+    vertices_.reserve(points);
+    leaders_in_cell_.reserve(points);
+    order_.reserve(points);
+    leaders_.reserve(points);
+}
+
 void VertexMerge::add(LatticePoint p) {
     const auto [it, fresh] = vertices_.try_emplace(p);
     ++it->second.uses;
@@ -44,16 +51,27 @@ void VertexMerge::settle(LatticePoint p, Vertex& vertex) {
     std::int64_t best = kReach * kReach; // strictly closer only
     for (std::int64_t cy = low.y; cy <= high.y; ++cy)
         for (std::int64_t cx = low.x; cx <= high.x; ++cx) {
-            const auto found = leaders_by_cell_.find({cx, cy});
-            if (found == leaders_by_cell_.end()) continue;
-            for (const LatticePoint& candidate : found->second)
+            const auto found = leaders_in_cell_.find({cx, cy});
+            if (found == leaders_in_cell_.end()) continue;
+            for (std::uint32_t k = found->second.first; k != kNone; k = leaders_[k].next) {
+                const LatticePoint candidate = leaders_[k].point;
                 if (const std::int64_t d = squared_distance(p, candidate); d < best) best = d, nearest = candidate;
+            }
         }
     vertex.leader = nearest.value_or(p);
     if (nearest)
         merged_ += vertex.uses;
     else
-        leaders_by_cell_[cell_of(p)].push_back(p);
+        add_leader(p);
+}
+
+void VertexMerge::add_leader(LatticePoint p) {
+    const auto k = static_cast<std::uint32_t>(leaders_.size());
+    leaders_.push_back({p, kNone});
+    const auto [it, fresh] = leaders_in_cell_.try_emplace(cell_of(p), Chain{k, k});
+    if (fresh) return;
+    leaders_[it->second.last].next = k;
+    it->second.last = k;
 }
 
 void VertexMerge::run() {

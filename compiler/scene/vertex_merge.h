@@ -18,7 +18,8 @@ struct LatticePointHash {
 /// become leaders before lone ones, so borders that are already shared exactly do not move.
 class VertexMerge {
   public:
-    VertexMerge() = default;
+    /// points: how many there will be, about.
+    explicit VertexMerge(std::size_t points);
     VertexMerge(const VertexMerge&) = delete; // order_ points into vertices_
     VertexMerge& operator=(const VertexMerge&) = delete;
     void add(LatticePoint p);
@@ -38,7 +39,16 @@ class VertexMerge {
 
     Vertices vertices_;
     std::vector<Vertices::value_type*> order_; ///< distinct points in input order; a hash map's nodes stay in place
-    std::unordered_map<LatticePoint, std::vector<LatticePoint>, LatticePointHash> leaders_by_cell_;
+    struct Leader {
+        LatticePoint point;
+        std::uint32_t next = kNone; ///< in the same cell
+    };
+    struct Chain {
+        std::uint32_t first = kNone, last = kNone;
+    };
+    void add_leader(LatticePoint p);
+    std::vector<Leader> leaders_;
+    std::unordered_map<LatticePoint, Chain, LatticePointHash> leaders_in_cell_;
     std::uint64_t merged_ = 0;
 };
 
