@@ -38,9 +38,9 @@ struct PlaneArc {
 ///     int compare(PlanePoint, PlanePoint);              … and of second ones where those are equal
 ///     bool is_vertical(const PlaneArc&);                all first coordinates are equal
 ///     int compare_at(PlanePoint, const PlaneArc&);      side of an arc whose first coordinates comprise the point's
-///     int compare_after(const PlaneArc&, const PlaneArc&, PlanePoint);    side of the second arc on which the first one
-///     int compare_before(const PlaneArc&, const PlaneArc&, PlanePoint);   leaves / reaches a common point
-///     void intersect(const PlaneArc&, const PlaneArc&, std::vector<PlanePoint>&);   ascending; arcs never overlap
+///     int compare_after(const PlaneArc&, const PlaneArc&, PlanePoint);    side of the second arc on which the first
+///     one int compare_before(const PlaneArc&, const PlaneArc&, PlanePoint);   leaves / reaches a common point void
+///     intersect(const PlaneArc&, const PlaneArc&, std::vector<PlanePoint>&);   ascending; arcs never overlap
 template <class Plane> class FilteredArcTraits {
   public:
     using Point_2 = PlanePoint;

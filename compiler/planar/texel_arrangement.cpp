@@ -74,9 +74,9 @@ Decomposition decomposed(TexelPlane& plane) {
 class Reader {
   public:
     Reader(TexelPlane& plane, Decomposition found, SweepResult& out)
-        : plane_(plane), found_(std::move(found)), out_(out), in_(plane.points().size()),
-          down_(plane.points().size()), left_(plane.points().size(), kNone), right_(plane.points().size(), kNone),
-          open_(plane.arcs().size(), kNone) {}
+        : plane_(plane), found_(std::move(found)), out_(out), in_(plane.points().size()), down_(plane.points().size()),
+          left_(plane.points().size(), kNone), right_(plane.points().size(), kNone), open_(plane.arcs().size(), kNone) {
+    }
 
     void run() {
         collect_pieces();

@@ -37,8 +37,8 @@ void TexelPlane::place_points() {
     }
     for (const std::uint32_t x : {0u, n + 1}) {
         for (const std::uint32_t y : {0u, n + 1}) {
-            const bool there = std::any_of(points_.begin(), points_.begin() + n,
-                                           [&](const Point& p) { return p.x == x && p.y == y; });
+            const bool there =
+                std::any_of(points_.begin(), points_.begin() + n, [&](const Point& p) { return p.x == x && p.y == y; });
             if (!there) points_.push_back({x, y, kNone, kNone});
         }
     }
@@ -67,7 +67,9 @@ void TexelPlane::add_edges() {
 void TexelPlane::add_side(TexelSide s) {
     const auto far = static_cast<std::uint32_t>(graph_.nodes.size() + 1);
     const auto on_side = [&](const Point& p) {
-        return s == TexelSide::Left ? p.x == 0 : s == TexelSide::Right ? p.x == far : p.y == (s == TexelSide::Top ? 0 : far);
+        return s == TexelSide::Left    ? p.x == 0
+               : s == TexelSide::Right ? p.x == far
+                                       : p.y == (s == TexelSide::Top ? 0 : far);
     };
     const auto k = static_cast<std::size_t>(s);
     side_start_[k] = static_cast<std::uint32_t>(arcs_.size());

@@ -158,12 +158,13 @@ void compare_texels(const Scene& scene, GridSize size, const std::string& name) 
             SweepGraph graph;
             mapper.collect(subs, all, graph);
             SweepResult direct, cgal;
-            const std::string where =
-                name + " at " + std::to_string(size.width) + "x" + std::to_string(size.height) + ", texel (" +
-                std::to_string(i) + ", " + std::to_string(j) + ") with " + std::to_string(subs.size()) + " edges";
+            const std::string where = name + " at " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                                      ", texel (" + std::to_string(i) + ", " + std::to_string(j) + ") with " +
+                                      std::to_string(subs.size()) + " edges";
             const bool swept = mapper.sweep().run(subs, graph, {}, frame, direct);
             const bool arranged = arrangement.run(subs, graph, frame, cgal);
-            EXPECT_TRUE(swept && arranged) << where << (swept ? "" : ": not swept") << (arranged ? "" : ": not arranged");
+            EXPECT_TRUE(swept && arranged)
+                << where << (swept ? "" : ": not swept") << (arranged ? "" : ": not arranged");
             if (!swept || !arranged) continue;
             const TexelAnswer answer(map.value(), graph, frame, direct);
             EXPECT_EQ(answer.difference(TexelAnswer(map.value(), graph, frame, cgal)), "") << where;
