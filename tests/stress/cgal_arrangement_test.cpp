@@ -13,12 +13,32 @@
 #include "compiler/planar/texel_arrangement.h"
 #include "compiler/planar/texel_map.h"
 #include "compiler/svg/svg.h"
+#include "compiler/union_find.h"
 #include "tests/stress/grid_drawing.h"
 #include "tests/stress/seeds.h"
+#include "tests/support/global_arrangement.h"
 #include "tests/support/random_scene.h"
 
 namespace fetexc::test {
 namespace {
+
+// --- files
+
+Result<Scene> load(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+    std::vector<Diagnostic> diagnostics;
+    return load_svg(bytes, {}, diagnostics);
+}
+
+std::vector<std::filesystem::path> art() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(FETEXC_ART_DIR)) {
+        if (entry.path().extension() == ".svg") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
 
 // --- texel by texel
 
@@ -190,24 +210,6 @@ TEST(TexelArrangement, AgreesWithTheSweepOnRandomScenes) {
     }
 }
 
-// --- files
-
-Result<Scene> load(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-    std::vector<Diagnostic> diagnostics;
-    return load_svg(bytes, {}, diagnostics);
-}
-
-std::vector<std::filesystem::path> art() {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(FETEXC_ART_DIR)) {
-        if (entry.path().extension() == ".svg") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 TEST(TexelArrangement, AgreesWithTheSweepOnOurArt) {
     ASSERT_FALSE(art().empty());
     for (const auto& path : art()) {
@@ -225,6 +227,86 @@ TEST(TexelArrangement, AgreesWithTheSweepOnTheTiger) {
     ASSERT_TRUE(scene.ok());
     compare_texels(scene.value(), {64, 64}, "the tiger");
     compare_texels(scene.value(), {256, 256}, "the tiger");
+}
+
+// --- the whole scene
+
+struct Plain {
+    std::vector<GlobalVertex> vertices; ///< by x, then y
+    std::size_t edges = 0, faces = 0;
+};
+
+/// What arrange() found, with Euler's formula for the faces.
+Plain plain(const Arrangement& a, const Grid& grid) {
+    Plain out;
+    UnionFind parts(a.set.vertices.size());
+    std::map<std::uint32_t, std::size_t> degree;
+    for (const Edge& e : a.edges) {
+        if (!reaches_canvas(a.set, a.set.arcs[e.arc], grid)) continue;
+        ++out.edges, ++degree[e.va], ++degree[e.vb];
+        parts.unite(e.va, e.vb);
+    }
+    std::vector<std::uint32_t> order;
+    std::size_t components = 0;
+    for (const auto& [v, n] : degree) {
+        order.push_back(v);
+        components += parts.find(v) == v ? 1 : 0;
+    }
+    std::sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) {
+        const Vertex &a0 = a.set.vertices[p], &b0 = a.set.vertices[q];
+        if (const int c = compare_coordinates(a.set, a0, b0, Axis::X); c != 0) return c < 0;
+        return compare_coordinates(a.set, a0, b0, Axis::Y) < 0;
+    });
+    for (const std::uint32_t v : order)
+        out.vertices.push_back({a.set.vertices[v].x, a.set.vertices[v].y, degree[v]});
+    out.faces = out.edges - order.size() + components + 1;
+    return out;
+}
+
+void compare_whole(const Scene& scene, const std::string& name) {
+    const Grid grid = make_grid(scene.extent, 1, 1);
+    PlanarStats stats;
+    const Result<Arrangement> arrangement = arrange(scene, grid, 1, stats);
+    ASSERT_TRUE(arrangement.ok()) << name << ": " << arrangement.error().message;
+    const Plain ours = plain(arrangement.value(), grid);
+    const GlobalArrangement cgal = arrange_globally(scene, grid);
+    ASSERT_EQ(cgal.undecided, "") << name;
+    EXPECT_EQ(ours.vertices.size(), cgal.vertices.size()) << name;
+    EXPECT_EQ(ours.edges, cgal.edges) << name;
+    EXPECT_EQ(ours.faces, cgal.faces) << name;
+    for (std::size_t k = 0; k < std::min(ours.vertices.size(), cgal.vertices.size()); ++k) {
+        const GlobalVertex &p = ours.vertices[k], &q = cgal.vertices[k];
+        const bool same = p.x.overlaps(q.x) && p.y.overlaps(q.y) && p.degree == q.degree;
+        EXPECT_TRUE(same) << name << ": vertex " << k << " at " << p.x.mid() << ", " << p.y.mid() << " of degree "
+                          << p.degree << ", CGAL's at " << q.x.mid() << ", " << q.y.mid() << " of degree " << q.degree;
+        if (!same) return;
+    }
+}
+
+TEST(GlobalArrangement, AgreesWithOursOnGridDrawings) {
+    for (const std::uint64_t seed : stress_seeds(100))
+        compare_whole(scene_of(random_drawing(seed).paths), "seed " + std::to_string(seed));
+}
+
+TEST(GlobalArrangement, AgreesWithOursOnRandomScenes) {
+    for (const std::uint64_t seed : stress_seeds(60))
+        compare_whole(random_scene(seed), "seed " + std::to_string(seed));
+}
+
+TEST(GlobalArrangement, AgreesWithOursOnOurArt) {
+    for (const auto& path : art()) {
+        const Result<Scene> scene = load(path);
+        ASSERT_TRUE(scene.ok()) << path;
+        compare_whole(scene.value(), path.filename().string());
+    }
+}
+
+TEST(GlobalArrangement, AgreesWithOursOnTheTiger) {
+    const std::filesystem::path path = std::filesystem::path(FETEXC_CORPUS_DIR) / "classic/Ghostscript_Tiger.svg";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no corpus here";
+    const Result<Scene> scene = load(path);
+    ASSERT_TRUE(scene.ok());
+    compare_whole(scene.value(), "the tiger");
 }
 
 } // namespace
