@@ -360,8 +360,8 @@ void GlobalPlane::intersect_exactly(std::uint32_t ia, std::uint32_t ib) {
         return;
     }
     std::vector<ExactHit> hits;
-    if (intersect_exact(set_.stretch_of(a), set_.stretch_of(b), hits) == ExactOutcome::CommonComponent)
-        undecided("arcs on one curve", a.v0);
+    if (intersect_exact(set_.stretch_of(a), set_.stretch_of(b), hits) != ExactOutcome::Done)
+        undecided("common points of two arcs", a.v0);
     for (const ExactHit& h : hits)
         add_contact(ia, ib, {h.s, h.t}, &h.narrow);
 }
