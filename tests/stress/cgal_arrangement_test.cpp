@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -170,27 +169,21 @@ void compare_texels(const Scene& scene, GridSize size, const std::string& name) 
     TexelMapper mapper(map.value(), scene, compositor, stats);
     NodeOrder order(map.value());
     TexelArrangement arrangement(map.value(), order, stats);
+    TexelMap texel;
+    SweepResult cgal;
     for (std::uint32_t j = 0; j < size.height; ++j) {
-        for (std::uint32_t i = 0; i < size.width; ++i) {
-            const std::span<const SubEdge> subs = map.value().sub_edges(i, j);
-            if (subs.empty()) continue;
-            const TexelFrame frame{2 * static_cast<HalfStep>(i), 2 * static_cast<HalfStep>(j)};
-            std::vector<std::uint32_t> all(subs.size());
-            std::iota(all.begin(), all.end(), 0u);
-            SweepGraph graph;
-            mapper.collect(subs, all, graph);
-            SweepResult direct, cgal;
+        map.value().along_row(j, [&](std::uint32_t i, const Windings& corner) {
+            if (i == size.width || map.value().sub_edges(i, j).empty()) return;
             const std::string where = name + " at " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                                      ", texel (" + std::to_string(i) + ", " + std::to_string(j) + ") with " +
-                                      std::to_string(subs.size()) + " edges";
-            const bool swept = mapper.sweep().run(subs, graph, {}, frame, direct);
-            const bool arranged = arrangement.run(subs, graph, frame, cgal);
+                                      ", texel (" + std::to_string(i) + ", " + std::to_string(j) + ")";
+            const bool swept = mapper.analyse(i, j, corner, texel);
+            const bool arranged = arrangement.run(texel.sub_edges, texel.graph, texel.frame, cgal);
             EXPECT_TRUE(swept && arranged)
                 << where << (swept ? "" : ": not swept") << (arranged ? "" : ": not arranged");
-            if (!swept || !arranged) continue;
-            const TexelAnswer answer(map.value(), graph, frame, direct);
-            EXPECT_EQ(answer.difference(TexelAnswer(map.value(), graph, frame, cgal)), "") << where;
-        }
+            if (!swept || !arranged) return;
+            const TexelAnswer answer(map.value(), texel.graph, texel.frame, texel.sweep);
+            EXPECT_EQ(answer.difference(TexelAnswer(map.value(), texel.graph, texel.frame, cgal)), "") << where;
+        });
     }
 }
 
@@ -292,6 +285,11 @@ void compare_whole(const Scene& scene, const std::string& name) {
 TEST(GlobalArrangement, AgreesWithOursOnGridDrawings) {
     for (const std::uint64_t seed : stress_seeds(100))
         compare_whole(scene_of(random_drawing(seed).paths), "seed " + std::to_string(seed));
+}
+
+TEST(GlobalArrangement, AgreesWithOursOnParts) {
+    for (const std::uint64_t seed : stress_seeds(60))
+        compare_whole(scene_of(with_parts(random_drawing(seed), seed).paths), "seed " + std::to_string(seed));
 }
 
 TEST(GlobalArrangement, AgreesWithOursOnRandomScenes) {

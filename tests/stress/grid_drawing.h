@@ -39,4 +39,18 @@ inline Drawing random_drawing(std::uint64_t seed) {
     return d;
 }
 
+/// Some of its segments again in part, as shapes of their own: partial overlaps, on loops, too.
+inline Drawing with_parts(Drawing d, std::uint64_t seed) {
+    Random random(seed);
+    for (std::size_t k = 0, paths = d.paths.size(); k < paths; ++k) {
+        for (std::size_t i = 0; i < d.paths[k].size(); ++i) {
+            if (random.chance(0.5)) continue;
+            std::vector<LatticePoint> part = half_of(d.paths[k][i], random.chance(0.5));
+            if (random.chance(0.3)) std::reverse(part.begin(), part.end());
+            d.paths.push_back(closed({part}));
+        }
+    }
+    return d;
+}
+
 } // namespace fetexc::test

@@ -27,6 +27,27 @@ std::optional<FixedPoint> certain_fixed(const ArcSet& set, const Vertex& v) {
     return narrow ? std::optional(fixed_contact(set.curves[v.a], *narrow)) : std::nullopt;
 }
 
+/// Stretches of one support share its double point beside their ends, nothing else. reversed: their parameters run
+/// against each other.
+std::optional<ExactHit> double_point_between(const Stretch& a, const Stretch& b, bool reversed) {
+    const mpq_class far(mpz_class(1) << 128);
+    const auto roots = [&](const Stretch& s) {
+        return isolate_roots(double_point_polynomial(*s.curve), -far, far, 192);
+    };
+    const auto ra = roots(a), rb = roots(b);
+    if (ra.size() != 2 || rb.size() != 2) return {};
+    const auto enclosed = [](const auto& r) {
+        return Interval(widen_down(r.first.get_d()), widen_up(r.second.get_d()));
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t k = reversed ? i : 1 - i;
+        const ExactHit hit{
+            enclosed(ra[i]), enclosed(rb[k]), {{ra[i].first, ra[i].second}, {rb[k].first, rb[k].second}}};
+        if (hit.s.overlaps(a.range) && hit.t.overlaps(b.range)) return hit;
+    }
+    return {};
+}
+
 } // namespace
 
 GlobalPlane::GlobalPlane(const ArcSet& set) : set_(set) {
@@ -351,12 +372,10 @@ void GlobalPlane::end_on_other(std::uint32_t end, std::uint32_t on, bool end_is_
 
 void GlobalPlane::intersect_exactly(std::uint32_t ia, std::uint32_t ib) {
     const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
-    if (a.curve == b.curve) { // its double point is all that they can share beside an end
-        std::optional<ExactHit> p = double_point(set_.curves[a.curve]);
-        if (!p) return;
-        if (a.t0.mid() > b.t0.mid()) std::swap(p->s, p->t), std::swap(p->narrow.s, p->narrow.t);
-        if (p->s.overlaps({a.t0.lo, a.t1.hi}) && p->t.overlaps({b.t0.lo, b.t1.hi}))
-            add_contact(ia, ib, {p->s, p->t}, &p->narrow);
+    SupportMap map{1, 0, Interval(0), Interval(1)};
+    if (a.curve == b.curve || same_support(set_.curves[a.curve], set_.curves[b.curve], map)) {
+        const auto p = double_point_between(set_.stretch_of(a), set_.stretch_of(b), map.alpha < 0);
+        if (p) add_contact(ia, ib, {p->s, p->t}, &p->narrow);
         return;
     }
     std::vector<ExactHit> hits;

@@ -56,14 +56,6 @@ TEST(Arrangement, WhatRunsBackAndForthVanishes) {
     EXPECT_EQ(arranged(scene_of({spike})).edges, 0u);
 }
 
-/// The half of a cubic before or behind its middle; its control points stay integers.
-std::vector<LatticePoint> half_of(const std::vector<LatticePoint>& c, bool first) {
-    const auto middle = [](LatticePoint a, LatticePoint b) { return LatticePoint{(a.x + b.x) / 2, (a.y + b.y) / 2}; };
-    const LatticePoint a = middle(c[0], c[1]), b = middle(c[1], c[2]), d = middle(c[2], c[3]);
-    const LatticePoint e = middle(a, b), f = middle(b, d), g = middle(e, f);
-    return first ? std::vector{c[0], a, e, g} : std::vector{g, f, d, c[3]};
-}
-
 TEST(Arrangement, PartsOfALoopOverlapIt) {
     // Both ends of the loop are one vertex, at two parameters of the support that it shares with its half.
     const std::vector<LatticePoint> loop{{256, 64}, {480, 448}, {32, 448}, {256, 64}};
