@@ -11,26 +11,12 @@
 #include <CGAL/tags.h>
 
 #include <boost/variant.hpp>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "compiler/scene/scene.h"
+#include "compiler/planar/plane_arc.h"
 
 namespace fetexc {
-
-/// A plane's point: whatever it knows by this number.
-struct PlanePoint {
-    std::uint32_t id = kNone;
-    friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
-};
-
-/// Part of a plane's piece from its smaller to its larger end, by first coordinates, then second ones.
-struct PlaneArc {
-    std::uint32_t piece = kNone;
-    PlanePoint min, max;
-    friend bool operator==(const PlaneArc&, const PlaneArc&) = default;
-};
 
 /// Plane: what is not needed (intersect(), where nothing crosses) needn't be there as long as CGAL doesn't ask.
 ///

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "compiler/planar/filtered_arc_traits.h"
 #include "compiler/planar/texel_plane.h"
 
 namespace fetexc {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "compiler/planar/filtered_arc_traits.h"
+#include "compiler/planar/plane_arc.h"
 #include "compiler/planar/sweep.h"
 
 namespace fetexc {

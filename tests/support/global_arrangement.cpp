@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compiler/planar/box_pairs.h"
+#include "compiler/planar/filtered_arc_traits.h"
 
 namespace fetexc::test {
 namespace {

@@ -326,14 +326,10 @@ const std::vector<PlanePoint>& GlobalPlane::common_points(std::uint32_t a, std::
 
 void GlobalPlane::intersect_pieces(std::uint32_t ia, std::uint32_t ib) {
     const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
-    for (const Axis axis : {Axis::X, Axis::Y}) {
-        const auto range = [&](const Arc& arc) {
-            return hull(along(set_.vertices[arc.v0], axis), along(set_.vertices[arc.v1], axis));
-        };
-        if (!range(a).overlaps(range(b))) return;
-    }
     known_.clear(), found_.clear();
-    known_contacts(ia, ib);
+    if (!known_contacts(a, b)) return;
+    end_on_other(ia, ib, true);
+    end_on_other(ib, ia, false);
     if (intersect_certified(set_.stretch_of(a), set_.stretch_of(b), known_, found_) == PairOutcome::Certified) {
         for (const Contact& c : found_)
             add_contact(ia, ib, c, nullptr);
@@ -343,9 +339,8 @@ void GlobalPlane::intersect_pieces(std::uint32_t ia, std::uint32_t ib) {
     }
 }
 
-/// Shared vertices, and end points on the other arc.
-void GlobalPlane::known_contacts(std::uint32_t ia, std::uint32_t ib) {
-    const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
+/// Shared vertices. False: the arcs' boxes have no more in common.
+bool GlobalPlane::known_contacts(const Arc& a, const Arc& b) {
     for (const auto& [va, ta] : {std::pair(a.v0, a.t0), std::pair(a.v1, a.t1)}) {
         for (const auto& [vb, tb] : {std::pair(b.v0, b.t0), std::pair(b.v1, b.t1)}) {
             if (va != vb) continue;
@@ -353,8 +348,18 @@ void GlobalPlane::known_contacts(std::uint32_t ia, std::uint32_t ib) {
             contacts_.push_back({va});
         }
     }
-    end_on_other(ia, ib, true);
-    end_on_other(ib, ia, false);
+    for (const Axis axis : {Axis::X, Axis::Y}) {
+        const auto range = [&](const Arc& arc) {
+            return hull(along(set_.vertices[arc.v0], axis), along(set_.vertices[arc.v1], axis));
+        };
+        const Interval u = range(a), v = range(b);
+        const double lo = std::max(u.lo, v.lo), hi = std::min(u.hi, v.hi);
+        if (lo > hi) return false;
+        if (contacts_.size() != 1 || (u.lo == u.hi && v.lo == v.hi)) continue;
+        const Interval& shared = along(points_[contacts_.front().id], axis); // all that has that level on one of them
+        if (shared.lo <= lo && hi <= shared.hi) return false;
+    }
+    return true;
 }
 
 void GlobalPlane::end_on_other(std::uint32_t end, std::uint32_t on, bool end_is_a) {
@@ -399,16 +404,12 @@ void GlobalPlane::add_contact(std::uint32_t ia, std::uint32_t ib, Contact c, con
 
 /// The stretch that a filter looks at reaches a little beyond the arc.
 bool GlobalPlane::within(const Arc& arc, const Vertex& v, const Interval& t) {
-    std::uint64_t exact = 0;
     const auto order = [&](std::uint32_t end, const Interval& te) {
-        const std::optional<int> c = compare_along(set_, arc, v, t, set_.vertices[end], te, exact);
+        const std::optional<int> c = compare_along(set_, arc, v, t, set_.vertices[end], te, counts_.ends_exact);
         if (!c) throw UndecidedGlobally{"end of an arc", v.x.mid(), v.y.mid()};
         return *c;
     };
-    const bool inside =
-        (t.lo > arc.t0.hi || order(arc.v0, arc.t0) >= 0) && (t.hi < arc.t1.lo || order(arc.v1, arc.t1) <= 0);
-    counts_.pairs_exact += exact > 0 ? 1 : 0;
-    return inside;
+    return (t.lo > arc.t0.hi || order(arc.v0, arc.t0) >= 0) && (t.hi < arc.t1.lo || order(arc.v1, arc.t1) <= 0);
 }
 
 } // namespace fetexc::test

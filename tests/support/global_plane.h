@@ -10,7 +10,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "compiler/planar/filtered_arc_traits.h"
+#include "compiler/planar/plane_arc.h"
 #include "tests/support/algebraic_coordinate.h"
 
 namespace fetexc::test {
@@ -26,7 +26,8 @@ class GlobalPlane {
     explicit GlobalPlane(const ArcSet& set);
 
     struct Counts {
-        std::uint64_t pairs = 0, pairs_exact = 0, coordinates = 0, coordinates_exact = 0, sides = 0, sides_exact = 0;
+        std::uint64_t pairs = 0, pairs_exact = 0, ends_exact = 0, coordinates = 0, coordinates_exact = 0, sides = 0,
+                      sides_exact = 0;
     };
     [[nodiscard]] const Counts& counts() const { return counts_; }
     [[nodiscard]] PlaneArc arc(std::uint32_t piece);
@@ -65,7 +66,7 @@ class GlobalPlane {
     int order_between(const PlaneArc& a, const PlaneArc& b, PlanePoint from, PlanePoint to);
 
     const std::vector<PlanePoint>& common_points(std::uint32_t a, std::uint32_t b);
-    void known_contacts(std::uint32_t a, std::uint32_t b);
+    bool known_contacts(const Arc& a, const Arc& b);
     void end_on_other(std::uint32_t end, std::uint32_t on, bool end_is_a);
     void intersect_pieces(std::uint32_t a, std::uint32_t b);
     void intersect_exactly(std::uint32_t a, std::uint32_t b);
