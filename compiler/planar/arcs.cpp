@@ -283,40 +283,48 @@ class Preparer {
         return groups;
     }
 
+    /// Where a member ends, on the root. A loop starts and ends in one vertex, and so may parts of a curve that crosses
+    /// itself: parameter and vertex together say which end it is.
+    struct SupportCut {
+        Interval t;
+        std::uint32_t vertex = 0;
+        [[nodiscard]] bool is(const SupportCut& o) const { return vertex == o.vertex && t.overlaps(o.t); }
+    };
+
     struct Member {
         std::uint32_t curve;
         SupportMap map; ///< to the root's parameter
-        Interval lo, hi;
-        std::uint32_t v_lo, v_hi;
+        SupportCut lo, hi;
     };
 
     /// Elementary stretches between all members' ends, each emitted once, on a member that covers it.
     void emit_support(std::uint32_t root, const std::vector<std::uint32_t>& curves) {
         std::vector<Member> members;
-        std::map<std::uint32_t, Interval> cuts; // vertex → parameter on the root
+        std::vector<SupportCut> cuts;
         for (std::uint32_t k : curves) {
-            Member m{k,  {1, 0, Interval(0), Interval(1)},  {},
-                     {}, vertex_at(out_.curves[k].first()), vertex_at(out_.curves[k].last())};
+            Member m{k, {1, 0, Interval(0), Interval(1)}, {}, {}};
             if (k != root && !same_support(out_.curves[k], out_.curves[root], m.map)) continue;
-            m.lo = m.map.start, m.hi = m.map.end;
-            if (m.map.alpha < 0) std::swap(m.lo, m.hi), std::swap(m.v_lo, m.v_hi);
-            cuts[m.v_lo] = m.lo, cuts[m.v_hi] = m.hi;
+            m.lo = {m.map.start, vertex_at(out_.curves[k].first())};
+            m.hi = {m.map.end, vertex_at(out_.curves[k].last())};
+            if (m.map.alpha < 0) std::swap(m.lo, m.hi);
+            cuts.push_back(m.lo), cuts.push_back(m.hi);
             members.push_back(m);
         }
-        std::vector<std::pair<double, std::uint32_t>> order;
-        for (const auto& [vertex, t] : cuts)
-            order.emplace_back(t.mid(), vertex);
-        std::sort(order.begin(), order.end());
-        for (std::size_t i = 0; i + 1 < order.size(); ++i)
-            emit_elementary(members, cuts, order[i], order[i + 1]);
+        std::sort(cuts.begin(), cuts.end(), [](const SupportCut& a, const SupportCut& b) {
+            return std::pair(a.t.mid(), a.vertex) < std::pair(b.t.mid(), b.vertex);
+        });
+        cuts.erase(
+            std::unique(cuts.begin(), cuts.end(), [](const SupportCut& a, const SupportCut& b) { return a.is(b); }),
+            cuts.end());
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+            emit_elementary(members, cuts[i], cuts[i + 1]);
     }
 
-    void emit_elementary(const std::vector<Member>& members, const std::map<std::uint32_t, Interval>& cuts,
-                         const std::pair<double, std::uint32_t>& from, const std::pair<double, std::uint32_t>& to) {
+    void emit_elementary(const std::vector<Member>& members, const SupportCut& from, const SupportCut& to) {
         std::vector<Contribution> sums;
         const Member* carrier = nullptr;
         for (const Member& m : members) {
-            if (m.lo.mid() > from.first || m.hi.mid() < to.first) continue;
+            if (m.lo.t.mid() > from.t.mid() || m.hi.t.mid() < to.t.mid()) continue;
             if (carrier == nullptr) carrier = &m;
             for (const Contribution& c : weighted_[m.curve].sums) {
                 add(sums, c.shape, (m.map.alpha < 0) == (carrier->map.alpha < 0) ? c.winding : -c.winding);
@@ -324,20 +332,20 @@ class Preparer {
         }
         drop_zero(sums);
         if (carrier == nullptr || sums.empty()) return;
-        End a = on_carrier(*carrier, cuts, from.second), b = on_carrier(*carrier, cuts, to.second);
+        End a = on_carrier(*carrier, from), b = on_carrier(*carrier, to);
         if (carrier->map.alpha < 0) std::swap(a, b);
         ++stats_.pieces_shared;
         emit_monotone(carrier->curve, a, b, sums, true);
     }
 
     /// Parameter of a cut on the carrier: inverse of its map, exact 0 and 1 at its own ends.
-    End on_carrier(const Member& m, const std::map<std::uint32_t, Interval>& cuts, std::uint32_t vertex) {
-        const Curve& c = out_.curves[m.curve];
-        if (vertex == vertex_at(c.first()) && vertex != vertex_at(c.last())) return {Interval(0), vertex};
-        if (vertex == vertex_at(c.last()) && vertex != vertex_at(c.first())) return {Interval(1), vertex};
+    static End on_carrier(const Member& m, const SupportCut& cut) {
+        const bool back = m.map.alpha < 0;
+        if (cut.is(m.lo)) return {Interval(back ? 1 : 0), cut.vertex};
+        if (cut.is(m.hi)) return {Interval(back ? 0 : 1), cut.vertex};
         const Interval alpha = m.map.end - m.map.start;
-        const Interval t = (cuts.at(vertex) - m.map.start) / alpha;
-        return {{std::max(0.0, t.lo), std::min(1.0, t.hi)}, vertex};
+        const Interval t = (cut.t - m.map.start) / alpha;
+        return {{std::max(0.0, t.lo), std::min(1.0, t.hi)}, cut.vertex};
     }
 
     const Scene& scene_;

@@ -34,10 +34,12 @@ std::optional<NarrowContact> narrowed(const ArcSet& set, const Vertex& v) {
     return narrow_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t});
 }
 
-/// The resultant has a root for every branch that passes: where another is within the enclosure, a narrower one.
+/// The resultant has a root for every branch that passes: where another is within the enclosure, a narrower one. Of two
+/// curves on one support, which have no resultant, only the double point is a crossing.
 AlgebraicNumber crossing_parameter(const ArcSet& set, const Vertex& v, std::uint32_t curve, const Interval& t) {
     AlgebraicNumber out{eliminate(set.curves[curve], set.curves[v.a == curve ? v.b : v.a]), mpq_class(t.lo),
                         mpq_class(t.hi)};
+    if (out.polynomial.empty()) out.polynomial = double_point_polynomial(set.curves[curve]);
     if (out.polynomial.size() == 2) return out;
     if (const auto narrow = narrowed(set, v)) {
         const RationalRange& r = v.a == curve ? narrow->s : narrow->t;

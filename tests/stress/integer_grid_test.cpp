@@ -4,47 +4,14 @@
 /// grid corners. Each drawing also turned, mirrored, reversed and in another order of its shapes.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <functional>
 
+#include "tests/stress/grid_drawing.h"
 #include "tests/stress/seeds.h"
-#include "tests/support/drawn_scene.h"
-#include "tests/support/random.h"
 #include "tests/support/region_check.h"
 
 namespace fetexc::test {
 namespace {
-
-struct Drawing {
-    std::vector<Path> paths;
-    int cells = 1; ///< the grid is cells × cells
-};
-
-Drawing random_drawing(std::uint64_t seed) {
-    Random random(seed);
-    Drawing d;
-    d.cells = 1 << random.integer(2, 4);
-    const std::int64_t unit = 512 / d.cells;
-    const int span = random.chance(0.3) ? d.cells : std::min(d.cells, 5); // few places: more coincidences
-    const auto point = [&] { return LatticePoint{unit * random.integer(0, span), unit * random.integer(0, span)}; };
-    const int shapes = random.integer(1, 7);
-    for (int k = 0; k < shapes; ++k) {
-        Path path;
-        LatticePoint at = point();
-        const int segments = random.integer(2, 6);
-        for (int i = 0; i < segments; ++i) {
-            std::vector<LatticePoint> control{at};
-            const int degree = random.integer(1, 3);
-            for (int j = 0; j < degree; ++j)
-                control.push_back(point());
-            at = control.back();
-            path.push_back(control);
-        }
-        d.paths.push_back(closed(path));
-    }
-    return d;
-}
 
 /// What separates the picture into parts, and whether every point is in the right one.
 std::uint64_t parts(const Drawing& d, FillRule rule, GridSize size, std::uint64_t seed, const char* what) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/drawn_scene.h"
 
+#include <algorithm>
+
 namespace fetexc::test {
 
 Scene scene_of(const std::vector<Path>& paths, FillRule rule) {
@@ -36,6 +38,17 @@ Path closed(Path segments) {
 
 Path box(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
     return {{{x0, y0}, {x1, y0}}, {{x1, y0}, {x1, y1}}, {{x1, y1}, {x0, y1}}, {{x0, y1}, {x0, y0}}};
+}
+
+std::vector<LatticePoint> half_of(std::vector<LatticePoint> c, bool first) {
+    std::vector<LatticePoint> half;
+    for (; !c.empty(); c.pop_back()) {
+        half.push_back(first ? c.front() : c.back());
+        for (std::size_t i = 0; i + 1 < c.size(); ++i)
+            c[i] = {(c[i].x + c[i + 1].x) / 2, (c[i].y + c[i + 1].y) / 2};
+    }
+    if (!first) std::reverse(half.begin(), half.end());
+    return half;
 }
 
 } // namespace fetexc::test

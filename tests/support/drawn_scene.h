@@ -18,4 +18,7 @@ using Path = std::vector<std::vector<LatticePoint>>; ///< control points of cons
 
 [[nodiscard]] Path box(std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
 
+/// One half of a segment; exact if its control points are multiples of 8.
+[[nodiscard]] std::vector<LatticePoint> half_of(std::vector<LatticePoint> segment, bool first);
+
 } // namespace fetexc::test

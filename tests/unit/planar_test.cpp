@@ -56,6 +56,20 @@ TEST(Arrangement, WhatRunsBackAndForthVanishes) {
     EXPECT_EQ(arranged(scene_of({spike})).edges, 0u);
 }
 
+TEST(Arrangement, PartsOfALoopOverlapIt) {
+    // Both ends of the loop are one vertex, at two parameters of the support that it shares with its half.
+    const std::vector<LatticePoint> loop{{256, 64}, {480, 448}, {32, 448}, {256, 64}};
+    expect_right(scene_of({{loop}, closed({half_of(loop, true)})}), "a loop and its first half");
+    expect_right(scene_of({{loop}, closed({half_of(loop, false)})}), "a loop and its second half");
+    expect_right(scene_of({{loop}, closed({half_of(half_of(loop, true), false)})}), "a loop and its second quarter");
+}
+
+TEST(Arrangement, PartsOfOneCurveCrossInItsDoublePoint) {
+    // The double point lies on a grid line at 8 texels, and the curves that cross there run on one support.
+    const std::vector<LatticePoint> ribbon{{64, 64}, {576, 448}, {-64, 448}, {448, 64}};
+    expect_right(scene_of({closed({ribbon}), closed({half_of(ribbon, true)})}), "a ribbon and its half");
+}
+
 TEST(Arrangement, PartialOverlapOfCurvesIsOneStretch) {
     // The second curve is the first one's half, cut at t = 1/2, with exact integer control points.
     const Path whole = closed({{{64, 64}, {128, 320}, {256, 320}, {320, 64}}});
