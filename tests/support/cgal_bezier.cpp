@@ -8,6 +8,8 @@
 #include <CGAL/CORE_algebraic_number_traits.h>
 #include <CGAL/Cartesian.h>
 
+#include <ctime>
+
 #include "tests/support/cgal_arrangement.h"
 #include "tests/support/cgal_oracles.h"
 
@@ -32,9 +34,7 @@ CanvasPoint middle(const Traits::Point_2& p) {
     return {x, y};
 }
 
-} // namespace
-
-Subdivision bezier_subdivision(std::span<const Path> paths) {
+void insert(std::span<const Path> paths, CGAL::Arrangement_2<Traits>& arrangement) {
     std::vector<Traits::Curve_2> curves;
     for (const Path& path : paths) {
         for (const auto& segment : path) {
@@ -44,9 +44,23 @@ Subdivision bezier_subdivision(std::span<const Path> paths) {
             curves.emplace_back(control.begin(), control.end());
         }
     }
-    CGAL::Arrangement_2<Traits> arrangement;
     CGAL::insert(arrangement, curves.begin(), curves.end());
+}
+
+} // namespace
+
+Subdivision bezier_subdivision(std::span<const Path> paths) {
+    CGAL::Arrangement_2<Traits> arrangement;
+    insert(paths, arrangement);
     return plain(arrangement, middle);
+}
+
+InsertionTiming time_bezier_insertion(std::span<const Path> paths) {
+    const std::clock_t start = std::clock();
+    CGAL::Arrangement_2<Traits> a;
+    insert(paths, a);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    return {seconds, a.number_of_vertices(), a.number_of_edges(), a.number_of_faces()};
 }
 
 } // namespace fetexc::test

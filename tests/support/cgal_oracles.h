@@ -16,6 +16,13 @@ namespace fetexc::test {
 /// Arr_Bezier_curve_traits_2 (CORE::Expr behind rational bounds). Segments of any degree.
 [[nodiscard]] Subdivision bezier_subdivision(std::span<const Path> paths);
 
+/// The same without the places, for timing: processor time of inserting the curves.
+struct InsertionTiming {
+    double seconds = 0;
+    std::size_t vertices = 0, edges = 0, faces = 0;
+};
+[[nodiscard]] InsertionTiming time_bezier_insertion(std::span<const Path> paths);
+
 struct ParameterPoint {
     Interval s, t;
 };

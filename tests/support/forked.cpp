@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -34,8 +35,15 @@ void silence() {
     if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);
 }
 
-[[noreturn]] void child(const std::function<std::vector<double>()>& work, int to) {
+void limit_processor_time(double seconds) {
+    const auto whole = static_cast<rlim_t>(std::ceil(seconds));
+    const rlimit limit{whole, whole + 1};
+    if (setrlimit(RLIMIT_CPU, &limit) != 0) _exit(1);
+}
+
+[[noreturn]] void child(const std::function<std::vector<double>()>& work, int to, double seconds) {
     silence();
+    limit_processor_time(seconds);
     std::vector<double> output;
     try {
         output = work();
@@ -75,10 +83,10 @@ ForkedRun run_forked(const std::function<std::vector<double>()>& work, double se
     std::fflush(nullptr);
     const pid_t pid = fork();
     if (pid < 0) throw std::runtime_error("fork");
-    if (pid == 0) child(work, pipe_ends[1]);
+    if (pid == 0) child(work, pipe_ends[1], seconds);
     close(pipe_ends[1]);
     const auto deadline =
-        std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * seconds));
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(10'000 * seconds));
     std::string bytes;
     const bool in_time = read_all(pipe_ends[0], deadline, bytes);
     close(pipe_ends[0]);
@@ -88,7 +96,7 @@ ForkedRun run_forked(const std::function<std::vector<double>()>& work, double se
     wait4(pid, &status, 0, &usage);
     ForkedRun run;
     run.seconds = processor_seconds(usage);
-    if (!in_time)
+    if (!in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         run.ended = Ended::TimedOut;
     else if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         run.ended = Ended::Finished;

@@ -15,7 +15,8 @@ struct ForkedRun {
     double seconds = 0;         ///< processor time of the child
 };
 
-/// Runs `work` in a child process for at most `seconds` of wall time. Call it while no other thread runs.
+/// Runs `work` in a child process for at most `seconds` of processor time, and ten times that of wall time (a machine
+/// that is busy with other things). Call it while no other thread runs.
 ForkedRun run_forked(const std::function<std::vector<double>()>& work, double seconds);
 
 } // namespace fetexc::test

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compiler/geometry/polynomial.h"
 #include "compiler/planar/box_pairs.h"
 
 namespace fetexc::test {
@@ -72,6 +73,9 @@ KernelHits hits_on_one_line(const Piece& a, const Piece& b) {
     return out;
 }
 
+/// Parameters of one curve that another piece of it may reach; the families' pieces overlap, so they are of one size.
+constexpr int kReach = 64;
+
 KernelHits hits_on_one_curve(const Piece& a, const Piece& b) {
     if (a.stretch.curve->degree < 2) return hits_on_one_line(a, b);
     KernelHits out;
@@ -91,11 +95,15 @@ KernelHits hits_on_one_curve(const Piece& a, const Piece& b) {
     const double u = mapped(a.first.t).mid(), v = mapped(a.last.t).mid();
     const double lo = std::max(std::min(u, v), b.first.t.mid()), hi = std::min(std::max(u, v), b.last.t.mid());
     out.overlap = hi - lo > near;
-    if (const std::optional<ExactHit> p = double_point(*a.stretch.curve)) {
-        for (const auto& [s, t] : {std::pair(p->s, p->t), std::pair(p->t, p->s)}) {
-            const bool inside = s.overlaps(a.stretch.range) && mapped(t).overlaps(b.stretch.range);
-            if (inside) out.required.push_back({s, mapped(t), {}});
-        }
+    // The curve's double point, of which each piece may hold one branch.
+    const auto branches =
+        isolate_roots(double_point_polynomial(*a.stretch.curve), -kReach, kReach, 2 * budget::kRefineBits);
+    for (std::size_t i = 0; i < branches.size() && branches.size() == 2; ++i) {
+        const auto rounded = [](const std::pair<mpq_class, mpq_class>& t) {
+            return Interval(widen_down(t.first.get_d()), widen_up(t.second.get_d()));
+        };
+        const Interval s = rounded(branches[i]), t = mapped(rounded(branches[1 - i]));
+        if (s.overlaps(a.stretch.range) && t.overlaps(b.stretch.range)) out.required.push_back({s, t, {}});
     }
     return out;
 }
