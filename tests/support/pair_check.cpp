@@ -136,10 +136,12 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> box_pairs_of(const std::vec
 }
 
 KernelHits kernel_hits(const Piece& a, const Piece& b) {
+    if (a.curve == b.curve) return hits_on_one_curve(a, b);
     std::vector<ExactHit> all;
-    if (a.curve == b.curve || intersect_exact(widened(a), widened(b), all) == ExactOutcome::CommonComponent)
-        return hits_on_one_curve(a, b);
+    const ExactOutcome outcome = intersect_exact(widened(a), widened(b), all);
+    if (outcome == ExactOutcome::CommonComponent) return hits_on_one_curve(a, b);
     KernelHits out;
+    out.decided = outcome == ExactOutcome::Done;
     for (const ExactHit& h : all) {
         const Place on_a = place_on(h.narrow.s, a), on_b = place_on(h.narrow.t, b);
         (on_a == Place::On && on_b == Place::On ? out.required : out.allowed).push_back(h);
@@ -171,6 +173,7 @@ FilterAnswer filter_answer(const Piece& a, const Piece& b) {
 }
 
 std::string mismatch(const std::vector<Contact>& contacts, const KernelHits& hits) {
+    if (!hits.decided) return "the kernel's answer is open";
     std::string wrong;
     for (const Contact& c : contacts) {
         const auto enclosed = [&](const ExactHit& h) { return encloses(c, h); };

@@ -36,7 +36,8 @@ struct KernelHits {
     std::vector<ExactHit> required; ///< on both pieces
     std::vector<ExactHit> allowed;  ///< within the enclosure of an end that is no integer point, or just beyond an end
     bool common_component = false;  ///< both run on one algebraic curve
-    bool overlap = false;           ///< … and share more than points (of lines: planar/arcs rules it out)
+    bool decided = true;
+    bool overlap = false; ///< … and share more than points (of lines: planar/arcs rules it out)
 };
 KernelHits kernel_hits(const Piece& a, const Piece& b);
 
