@@ -56,8 +56,8 @@ void check_kernel(const Piece& a, const Piece& b, const KernelHits& hits, const 
 
 // --- drawings
 
-/// Seeds of the full count: 100,000 generated pairs, and every box pair of the drawings against the kernel (two minutes
-/// for the tiger). With fewer seeds as much less.
+/// Seeds of the full count: 100,000 generated pairs, and every box pair of the drawings against the kernel (three
+/// minutes for the tiger). With fewer seeds as much less.
 constexpr std::uint64_t kFullSeeds = 300, kFewSeeds = 8;
 
 std::uint64_t one_in() { return std::max<std::uint64_t>(1, kFullSeeds / stress_seeds(kFewSeeds).size()); }
