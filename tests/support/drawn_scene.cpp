@@ -5,8 +5,7 @@
 
 namespace fetexc::test {
 
-Scene scene_of(const std::vector<Path>& paths, FillRule rule) {
-    constexpr std::int64_t unit = kLatticeSteps / 512;
+Scene scene_of(const std::vector<Path>& paths, FillRule rule, std::int64_t unit) {
     Scene s;
     s.extent = {512, 512, kLatticeSteps, kLatticeSteps};
     for (const Path& path : paths) {

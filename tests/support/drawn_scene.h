@@ -10,8 +10,10 @@ namespace fetexc::test {
 
 using Path = std::vector<std::vector<LatticePoint>>; ///< control points of consecutive segments, in 1/512 of the canvas
 
-/// One opaque fill per path, each in a colour of its own (nine of them, then again).
-[[nodiscard]] Scene scene_of(const std::vector<Path>& paths, FillRule rule = FillRule::EvenOdd);
+/// One opaque fill per path, each in a colour of its own (nine of them, then again). unit: lattice steps per unit of
+/// the paths, 512 of which are the canvas unless said otherwise.
+[[nodiscard]] Scene scene_of(const std::vector<Path>& paths, FillRule rule = FillRule::EvenOdd,
+                             std::int64_t unit = kLatticeSteps / 512);
 
 /// Closed with a line back to the start.
 [[nodiscard]] Path closed(Path segments);
