@@ -113,6 +113,16 @@ void narrow(const Dyadic& c, const mpz_class& v, bool rises, mpz_class& lo, mpz_
     bisect(c, v, rises, lo, hi);
 }
 
+/// By whole numbers alone, for most curves: the point's coordinates are no integers, so v ≤ ⌊p⌋ is v < p.
+std::optional<int> crossings_of_far_curve(const PlanarCurve& c, std::int64_t fx, std::int64_t fy) {
+    const auto n = static_cast<std::size_t>(c.degree) + 1;
+    const auto [x0, x1] = std::minmax_element(c.x.begin(), c.x.begin() + static_cast<std::ptrdiff_t>(n));
+    const auto [y0, y1] = std::minmax_element(c.y.begin(), c.y.begin() + static_cast<std::ptrdiff_t>(n));
+    if (*y1 <= fy || *y0 > fy || *x0 > fx) return 0;
+    if (*x1 <= fx) return (c.y[n - 1] > fy ? 1 : 0) - (c.y[0] > fy ? 1 : 0);
+    return {};
+}
+
 } // namespace
 
 PlanarCurve planar_curve(const Segment& segment, const Grid& grid) {
@@ -124,6 +134,8 @@ PlanarCurve planar_curve(const Segment& segment, const Grid& grid) {
 }
 
 std::optional<int> crossings_left_of(const PlanarCurve& curve, const ExactPoint& point) {
+    const std::int64_t fx = shifted(point.x, -kPointBits).get_si(), fy = shifted(point.y, -kPointBits).get_si();
+    if (const std::optional<int> n = crossings_of_far_curve(curve, fx, fy)) return n;
     Values x, y;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(curve.degree); ++i)
         x[i] = shifted(to_mpz(curve.x[i]), kPointBits), y[i] = shifted(to_mpz(curve.y[i]), kPointBits);

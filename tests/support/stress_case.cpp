@@ -43,7 +43,7 @@ Failure map_failure(const Scene& scene, std::uint64_t seed, bool inside, int gri
 }
 
 Failure fails_on_grids(const Drawing& d, std::uint64_t seed) {
-    return map_failure(scene_of(d), seed, lies_inside(d), 3);
+    return map_failure(scene_of(d), seed, lies_inside(d), 2);
 }
 
 Failure region_failure(const Scene& scene, std::uint64_t seed) {
@@ -173,7 +173,7 @@ Failure fails_on_canvas(const Drawing& d, std::uint64_t seed) {
             built(d, scale * kCanvas, [=](CanvasPoint p) { return CanvasPoint{scale * p.x, scale * p.y}; });
         if (!scaled || !same_geometry(drawn.value(), scaled.value())) return "scaling changes the lattice image";
     }
-    if (const Failure f = first_scene_failure(drawn.value(), seed, scene_lies_inside(drawn.value()))) return f;
+    if (const Failure f = region_failure(drawn.value(), seed)) return f;
     Random random(seed);
     const double angle = random.between(0, 6.28), zoom = random.between(0.3, 0.9);
     const double c = zoom * std::cos(angle), s = zoom * std::sin(angle), half = kCanvas / 2;
@@ -182,7 +182,8 @@ Failure fails_on_canvas(const Drawing& d, std::uint64_t seed) {
         return CanvasPoint{half + c * x - s * y, half + s * x + c * y};
     });
     if (!turned) return "E" + std::to_string(turned.error().code) + ": " + turned.error().message;
-    const Failure f = first_scene_failure(turned.value(), seed, scene_lies_inside(turned.value()));
+    Failure f = check_map(turned.value(), {grid_of(seed, 1), kPoints, seed, scene_lies_inside(turned.value())}).failure;
+    if (!f) f = region_failure(turned.value(), seed);
     return f ? "turned by " + std::to_string(angle) + ": " + *f : f;
 }
 

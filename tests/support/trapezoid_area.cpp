@@ -41,15 +41,19 @@ Local local(const Curve& c, Axis axis, std::int64_t origin) {
     return out;
 }
 
-/// On a stretch where the values are monotone.
-Real parameter_at(const Local& c, const Interval& range, Real v) {
-    Real lo = range.lo, hi = range.hi;
+/// On a stretch where the values are monotone: Newton steps, kept in a bracket.
+Real parameter_at(const Local& c, const Local& slope, const Interval& range, Real v) {
+    Real lo = range.lo, hi = range.hi, t = (lo + hi) / 2;
     const bool rises = c.at(lo) < c.at(hi);
-    for (int k = 0; k < 64 && lo < hi; ++k) {
-        const Real mid = (lo + hi) / 2;
-        ((c.at(mid) < v) == rises ? lo : hi) = mid;
+    for (int k = 0; k < 80; ++k) {
+        const Real off = c.at(t) - v, step = off / slope.at(t);
+        ((off < 0) == rises ? lo : hi) = t;
+        Real next = t - step;
+        if (!(next > lo && next < hi)) next = (lo + hi) / 2;
+        if (next == t || std::fabs(next - t) <= std::numeric_limits<Real>::epsilon() * t) return next;
+        t = next;
     }
-    return (lo + hi) / 2;
+    return t;
 }
 
 const Curve& curve_of(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge) {
@@ -131,7 +135,7 @@ Real TrapezoidAreas::side_integral(std::uint32_t edge, bool right, Real y0, Real
     if (edge == kNone) return right ? width_ * (y1 - y0) : 0;
     const Stretch s = map_.stretch_of(texel_.sub_edges[texel_.graph.edges[edge].sub]);
     const Local x = local(*s.curve, Axis::X, x0_), y = local(*s.curve, Axis::Y, y0_), dy = y.derivative();
-    const Real t0 = parameter_at(y, s.range, y0), t1 = parameter_at(y, s.range, y1);
+    const Real t0 = parameter_at(y, dy, s.range, y0), t1 = parameter_at(y, dy, s.range, y1);
     const Real half = (t1 - t0) / 2, middle = (t0 + t1) / 2, reach = std::sqrt(static_cast<Real>(0.6L)) * half;
     Real sum = 8 * x.at(middle) * dy.at(middle);
     for (const Real t : {middle - reach, middle + reach})
