@@ -108,7 +108,9 @@ int main(int argc, char** argv) {
     app.add_option("--seed", o.seed, "of the generator, and of the checks' grids and angles");
     app.add_option("--predicate", o.predicate, "what must go on failing")->capture_default_str();
     app.add_option("--message", o.message, "text that the failure must contain");
-    app.add_option("--limit", o.seconds, "seconds of processor time")->capture_default_str()->check(CLI::Range(1, 3600));
+    app.add_option("--limit", o.seconds, "seconds of processor time")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 3600));
     app.add_option("-o,--output", o.output, "file to write; without it, standard output");
     app.add_flag("--list", o.list, "names of predicates and generators");
     CLI11_PARSE(app, argc, argv);

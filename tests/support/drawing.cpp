@@ -143,7 +143,8 @@ Result<Drawing> read_drawing(std::istream& in) {
             if (!(words >> word) || (word != "evenodd" && word != "nonzero")) return malformed(line, "unknown rule");
             out.rule = word == "evenodd" ? FillRule::EvenOdd : FillRule::NonZero;
         } else if (word == "unit") {
-            if (!(words >> unit) || unit < 1 || unit > kLatticeSteps) return malformed(line, "the unit is out of range");
+            if (!(words >> unit) || unit < 1 || unit > kLatticeSteps)
+                return malformed(line, "the unit is out of range");
         } else if (word == "1" || word == "2" || word == "3") {
             if (out.paths.empty()) return malformed(line, "a curve before the first path");
             if (!read_curve(words, unit, word[0] - '0', out.paths.back()))
@@ -166,7 +167,8 @@ Result<Drawing> read_drawing(const std::string& file) {
 
 void write_drawing(const Drawing& drawing, std::ostream& out) {
     std::uint64_t bits = static_cast<std::uint64_t>(kLatticeSteps);
-    each_point(drawing, [&](LatticePoint p) { bits |= static_cast<std::uint64_t>(p.x) | static_cast<std::uint64_t>(p.y); });
+    each_point(drawing,
+               [&](LatticePoint p) { bits |= static_cast<std::uint64_t>(p.x) | static_cast<std::uint64_t>(p.y); });
     const std::int64_t unit = std::int64_t{1} << std::countr_zero(bits);
     if (drawing.rule == FillRule::EvenOdd) out << "rule evenodd\n";
     if (unit != 1) out << "unit " << unit << "\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Drawings of stress tests: closed paths of curves in lattice steps, their text form (.crv), and what moves them about.
+/// Drawings of stress tests: closed paths of curves in lattice steps, their text form (.crv), and what moves them
+/// about.
 #pragma once
 
 #include <functional>

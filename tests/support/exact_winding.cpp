@@ -167,15 +167,15 @@ mpq_class winding_area(std::span<const PlanarCurve> contour) {
     mpq_class sum = 0;
     for (const PlanarCurve& c : contour) {
         // Σ over Bernstein products: ∫ x dy = Σ_ij x_i (y_{j+1} − y_j) · C(n,i) C(n−1,j) / (2 C(2n−1,i+j)).
-        static constexpr int choose[6][6] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0},  {1, 2, 1, 0, 0, 0},
+        static constexpr int choose[6][6] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0}, {1, 2, 1, 0, 0, 0},
                                              {1, 3, 3, 1, 0, 0}, {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
         const int n = c.degree;
         for (int i = 0; i <= n; ++i) {
             for (int j = 0; j < n; ++j) {
-                const mpz_class product = to_mpz(c.x[static_cast<std::size_t>(i)]) *
-                                          (to_mpz(c.y[static_cast<std::size_t>(j) + 1]) -
-                                           to_mpz(c.y[static_cast<std::size_t>(j)])) *
-                                          (choose[n][i] * choose[n - 1][j]);
+                const mpz_class product =
+                    to_mpz(c.x[static_cast<std::size_t>(i)]) *
+                    (to_mpz(c.y[static_cast<std::size_t>(j) + 1]) - to_mpz(c.y[static_cast<std::size_t>(j)])) *
+                    (choose[n][i] * choose[n - 1][j]);
                 mpq_class term(product, 2 * choose[2 * n - 1][i + j]);
                 term.canonicalize();
                 sum -= term;

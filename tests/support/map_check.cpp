@@ -147,10 +147,12 @@ class Checker {
             sets.unite(e.top, e.bottom);
         for (std::uint32_t k = 0; k < sets.size(); ++k)
             components += sets.find(k) == k ? 1 : 0;
-        if (inner - static_cast<std::int64_t>(graph.edges.size()) + static_cast<std::int64_t>(faces.count) != components)
-            fail(texel.i, texel.j, "Euler's formula fails: " + std::to_string(inner) + " inner vertices, " +
-                                       std::to_string(graph.edges.size()) + " edges, " + std::to_string(faces.count) +
-                                       " faces, " + std::to_string(components) + " components");
+        if (inner - static_cast<std::int64_t>(graph.edges.size()) + static_cast<std::int64_t>(faces.count) !=
+            components)
+            fail(texel.i, texel.j,
+                 "Euler's formula fails: " + std::to_string(inner) + " inner vertices, " +
+                     std::to_string(graph.edges.size()) + " edges, " + std::to_string(faces.count) + " faces, " +
+                     std::to_string(components) + " components");
     }
 
     /// From the corner's face across the edges; then every edge has to agree with both its sides.
@@ -186,14 +188,14 @@ class Checker {
 
     void check_areas(const TexelMap& texel, Faces& faces) {
         const Grid& g = map_.grid();
-        const double whole = static_cast<double>(g.px) * static_cast<double>(g.py),
-                     canvas = whole * g.width * g.height;
+        const double whole = static_cast<double>(g.px) * static_cast<double>(g.py), canvas = whole * g.width * g.height;
         TrapezoidAreas areas(map_, texel);
         faces.area.assign(faces.count, 0);
         double sum = 0, error = 0;
         for (const Trapezoid& t : texel.sweep.trapezoids) {
             const BoundedArea a = areas.of(t);
-            if (a.area < -a.error) fail(texel.i, texel.j, "a trapezoid is inside out by " + std::to_string(a.area / whole));
+            if (a.area < -a.error)
+                fail(texel.i, texel.j, "a trapezoid is inside out by " + std::to_string(a.area / whole));
             faces.area[faces.region[t.face]] += a.area / canvas;
             sum += a.area, error += a.error;
         }
@@ -244,14 +246,15 @@ class Checker {
             sets.unite(e.va, e.vb);
             vertices.insert({e.va, e.vb});
         }
-        const auto components = std::count_if(vertices.begin(), vertices.end(),
-                                              [&](std::uint32_t v) { return sets.find(v) == v; });
+        const auto components =
+            std::count_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return sets.find(v) == v; });
         const auto v = static_cast<std::int64_t>(vertices.size()), e = static_cast<std::int64_t>(a.edges.size());
         const auto f = static_cast<std::int64_t>(graph.component_count());
         out_.edges_minus_vertices = e - v;
         if (v - e + f != 1 + components)
-            fail(0, 0, "Euler's formula fails for the canvas: " + std::to_string(v) + " vertices, " + std::to_string(e) +
-                           " edges, " + std::to_string(f) + " faces, " + std::to_string(components) + " components");
+            fail(0, 0,
+                 "Euler's formula fails for the canvas: " + std::to_string(v) + " vertices, " + std::to_string(e) +
+                     " edges, " + std::to_string(f) + " faces, " + std::to_string(components) + " components");
         check_integrals();
     }
 

@@ -39,7 +39,8 @@ struct MapCheckOptions {
 /// Builds the map of the scene and checks, texel by texel: Euler's formula with independently counted faces; winding
 /// numbers on both sides of every edge; trapezoids that are in order and fill the texel; winding numbers at random
 /// rational points inside trapezoids, decided in exact arithmetic. Over the canvas: neighbouring texels agree; running
-/// sums along rows equal what the faces say; Euler's formula; areas times winding numbers equal the contours' integrals.
+/// sums along rows equal what the faces say; Euler's formula; areas times winding numbers equal the contours'
+/// integrals.
 [[nodiscard]] MapCheck check_map(const Scene& scene, const MapCheckOptions& options);
 
 } // namespace fetexc::test

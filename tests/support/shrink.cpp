@@ -128,14 +128,18 @@ class Shrinker {
         each_curve([&](std::size_t k, std::size_t i) {
             for (std::size_t h = 0; h < best_.paths[k][i].size(); ++h) {
                 const LatticePoint at = best_.paths[k][i][h];
-                round_one([&](const LatticePoint& to) {
-                    return mapped(best_, [&](LatticePoint p) { return p == at ? to : p; });
-                }, at);
-                round_one([&](const LatticePoint& to) {
-                    Drawing d = best_;
-                    d.paths[k][i][h] = to;
-                    return d;
-                }, best_.paths[k][i][h]);
+                round_one(
+                    [&](const LatticePoint& to) {
+                        return mapped(best_, [&](LatticePoint p) { return p == at ? to : p; });
+                    },
+                    at);
+                round_one(
+                    [&](const LatticePoint& to) {
+                        Drawing d = best_;
+                        d.paths[k][i][h] = to;
+                        return d;
+                    },
+                    best_.paths[k][i][h]);
             }
         });
     }

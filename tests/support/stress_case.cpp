@@ -17,8 +17,7 @@ constexpr int kPoints = 8, kFewPoints = 2; ///< per texel
 
 /// One texel, powers of two (on whose lines many drawings have something), and odd, uneven ones.
 GridSize grid_of(std::uint64_t seed, std::uint64_t k) {
-    static constexpr std::array<GridSize, 7> grids{
-        {{1, 1}, {8, 8}, {3, 5}, {16, 4}, {7, 1}, {2, 2}, {5, 13}}};
+    static constexpr std::array<GridSize, 7> grids{{{1, 1}, {8, 8}, {3, 5}, {16, 4}, {7, 1}, {2, 2}, {5, 13}}};
     return k == 0 ? grids[0] : grids[1 + (seed + k) % (grids.size() - 1)];
 }
 
@@ -84,10 +83,10 @@ constexpr std::array kMoves{
          },
          true, false},
     Move{"transposed",
-         [](const Drawing& d) {
-             return mapped(d, [](LatticePoint p) { return LatticePoint{p.y, p.x}; });
-         },
-         true, false},
+         [](const Drawing& d) { return mapped(d, [](LatticePoint p) {
+                                    return LatticePoint{p.y, p.x};
+                                }); }, true,
+         false},
     Move{"turned by 90 degrees",
          [](const Drawing& d) {
              return mapped(d, [](LatticePoint p) { return LatticePoint{p.y, kLatticeSteps - p.x}; });
@@ -169,8 +168,9 @@ Failure fails_on_canvas(const Drawing& d, std::uint64_t seed) {
     const Result<Scene> drawn = built(d, kCanvas, [](CanvasPoint p) { return p; });
     if (!drawn) return "E" + std::to_string(drawn.error().code) + ": " + drawn.error().message;
     for (const double scale : {0x1p-40, 0x1p+40}) {
-        const Result<Scene> scaled =
-            built(d, scale * kCanvas, [=](CanvasPoint p) { return CanvasPoint{scale * p.x, scale * p.y}; });
+        const Result<Scene> scaled = built(d, scale * kCanvas, [=](CanvasPoint p) {
+            return CanvasPoint{scale * p.x, scale * p.y};
+        });
         if (!scaled || !same_geometry(drawn.value(), scaled.value())) return "scaling changes the lattice image";
     }
     if (const Failure f = region_failure(drawn.value(), seed)) return f;
@@ -202,8 +202,7 @@ constexpr std::array kChecks{
 std::span<const StressCheck> stress_checks() { return kChecks; }
 
 const StressCheck* find_check(std::string_view name) {
-    const auto it =
-        std::find_if(kChecks.begin(), kChecks.end(), [&](const StressCheck& c) { return name == c.name; });
+    const auto it = std::find_if(kChecks.begin(), kChecks.end(), [&](const StressCheck& c) { return name == c.name; });
     return it == kChecks.end() ? nullptr : &*it;
 }
 

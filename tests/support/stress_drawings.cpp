@@ -136,7 +136,8 @@ ControlPoints odd_curve(Random& random) {
     case 6: // a loop as a whole
         return {a, h, b, a};
     case 7: // there and back on one line
-        return {a, a + 2 * LatticePoint{(h - a).x / 2, (h - a).y / 2}, h, a + LatticePoint{(h - a).x / 2, (h - a).y / 2}};
+        return {a, a + 2 * LatticePoint{(h - a).x / 2, (h - a).y / 2}, h,
+                a + LatticePoint{(h - a).x / 2, (h - a).y / 2}};
     default: // a line or a quadratic in disguise
         return disguised(thrice(random_curve(random, random.integer(1, 2))));
     }
@@ -155,7 +156,8 @@ Drawing odd_curves(Random& random) {
 
 LatticePoint turned(LatticePoint p) { return {-p.y, p.x}; }
 
-/// The outline of a thick line along a spine with right and sharp angles: it overlaps itself, partly along common edges.
+/// The outline of a thick line along a spine with right and sharp angles: it overlaps itself, partly along common
+/// edges.
 Path thick_line(Random& random) {
     const std::int64_t pitch = kSide / 16;
     const bool square = random.chance(0.5);
@@ -171,7 +173,8 @@ Path thick_line(Random& random) {
         const LatticePoint d = spine[i + 1] - spine[i];
         const double length = std::max(1.0, std::hypot(static_cast<double>(d.x), static_cast<double>(d.y)));
         const double k = static_cast<double>(half) / length;
-        const LatticePoint n = turned({std::llround(k * static_cast<double>(d.x)), std::llround(k * static_cast<double>(d.y))});
+        const LatticePoint n =
+            turned({std::llround(k * static_cast<double>(d.x)), std::llround(k * static_cast<double>(d.y))});
         for (const std::size_t j : {i, i + 1})
             left.push_back(spine[j] + n), right.push_back(spine[j] - n);
     }
@@ -359,8 +362,8 @@ double power_of_ten(Random& random, int low, int high) { return std::pow(10.0, r
 std::span<const StressGenerator> stress_generators() { return kGenerators; }
 
 const StressGenerator* find_generator(std::string_view name) {
-    const auto it = std::find_if(kGenerators.begin(), kGenerators.end(),
-                                 [&](const StressGenerator& g) { return name == g.name; });
+    const auto it =
+        std::find_if(kGenerators.begin(), kGenerators.end(), [&](const StressGenerator& g) { return name == g.name; });
     return it == kGenerators.end() ? nullptr : &*it;
 }
 

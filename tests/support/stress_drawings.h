@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string_view>
 
@@ -14,6 +15,7 @@ namespace fetexc::test {
 struct StressGenerator {
     const char* name;
     Drawing (*make)(Random& random);
+    friend void PrintTo(const StressGenerator& g, std::ostream* out) { *out << g.name; } ///< for GoogleTest
 };
 
 [[nodiscard]] std::span<const StressGenerator> stress_generators();

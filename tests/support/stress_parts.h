@@ -35,7 +35,9 @@ inline LatticePoint random_point(Random& random) {
 }
 
 /// In the middle part of the canvas.
-inline LatticePoint random_centre(Random& random) { return LatticePoint{kSide / 2, kSide / 2} + random_offset(random, kSide / 8); }
+inline LatticePoint random_centre(Random& random) {
+    return LatticePoint{kSide / 2, kSide / 2} + random_offset(random, kSide / 8);
+}
 
 inline ControlPoints random_curve(Random& random, int degree) {
     ControlPoints out;

@@ -95,8 +95,11 @@ LatticePoint apex(const ControlPoints& c) {
 /// both lie on one line and parity allows.
 void move_apex(ControlPoints& c, LatticePoint to, LatticePoint d) {
     const LatticePoint off = to - apex(c);
-    const double square = static_cast<double>(d.x) * static_cast<double>(d.x) + static_cast<double>(d.y) * static_cast<double>(d.y);
-    const double times = (static_cast<double>(off.x) * static_cast<double>(d.x) + static_cast<double>(off.y) * static_cast<double>(d.y)) / square;
+    const double square =
+        static_cast<double>(d.x) * static_cast<double>(d.x) + static_cast<double>(d.y) * static_cast<double>(d.y);
+    const double times = (static_cast<double>(off.x) * static_cast<double>(d.x) +
+                          static_cast<double>(off.y) * static_cast<double>(d.y)) /
+                         square;
     c.back() = c.back() + std::llround(c.size() == 3 ? times / 2 : times) * d;
 }
 

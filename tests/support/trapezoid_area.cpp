@@ -159,13 +159,14 @@ Real TrapezoidAreas::side_error(std::uint32_t edge, Real height) const {
 }
 
 /// A level is a double inside its enclosure, so it errs by the enclosure's width (and one rounding of the subtraction).
+/// The result is rounded to double, and once more when it is added up.
 BoundedArea TrapezoidAreas::of(const Trapezoid& t) const {
     const Real y0 = level(t.top_node, true), y1 = level(t.bottom_node, false), height = std::fabs(y1 - y0);
     const Real area = side_integral(t.right, true, y0, y1) - side_integral(t.left, false, y0, y1);
     const Real levels = level_error(t.top_node) + level_error(t.bottom_node) +
                         4 * std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon() * height_;
     const Real error = side_error(t.left, height) + side_error(t.right, height) + 2 * levels * width_;
-    return {static_cast<double>(area), static_cast<double>(error) + 0x1p-60 * static_cast<double>(width_ * height_)};
+    return {static_cast<double>(area), static_cast<double>(error) + 0x1p-51 * static_cast<double>(width_ * height_)};
 }
 
 TrapezoidPoint point_in(const PlanarMap& map, const TexelMap& texel, const Trapezoid& t, Random& random) {

@@ -87,8 +87,9 @@ TEST(Crv, ReadsWhatItWrites) {
 }
 
 TEST(Crv, RefusesWhatItIsNot) {
-    for (const char* text : {"1 0 0 1 1\n", "path\n4 0 0 1 1\n", "path\n1 0 0 1\n", "path\n1 0 0 1 1 2\n", "curve\n",
-                             "unit 0\n", "rule winding\n", "path\n1 0 0 1 999999999999\n", "unit 1024\npath\n1 0 0 1 999999\n"})
+    for (const char* text :
+         {"1 0 0 1 1\n", "path\n4 0 0 1 1\n", "path\n1 0 0 1\n", "path\n1 0 0 1 1 2\n", "curve\n", "unit 0\n",
+          "rule winding\n", "path\n1 0 0 1 999999999999\n", "unit 1024\npath\n1 0 0 1 999999\n"})
         EXPECT_FALSE(parsed(text).ok()) << text;
     EXPECT_TRUE(parsed("# nothing\n\nunit 2 # steps\npath\n1 0 0 1 1 # a line\n").ok());
 }
