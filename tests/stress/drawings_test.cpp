@@ -57,6 +57,22 @@ TEST(WideRange, CoordinatesOfAnySizeHoldEveryInvariant) {
     }
 }
 
+/// Every pair of edges through a point is looked at, so this grows with the square of their number.
+void expect_map_holds(const Drawing& drawing, const char* what) {
+    const Watchdog watchdog(what, curve_count(drawing));
+    const MapCheck check = check_map(scene_of(drawing), {{4, 4}, 100, 0, lies_inside(drawing)});
+    EXPECT_FALSE(check.failure) << what << ", " << curve_count(drawing) << " curves: " << *check.failure;
+}
+
+bool full_count() { return stress_seeds(1).size() >= 10000; }
+
+TEST(ManyLines, EndInAPoint) { expect_map_holds(rays_from_a_point(full_count() ? 10000 : 1000), "rays_from_a_point"); }
+
+TEST(ManyLines, CrossInAPoint) {
+    Random random(1);
+    expect_map_holds(lines_through_a_point(random, full_count() ? 2000 : 300), "lines_through_a_point");
+}
+
 /// The drawing as an SVG whose canvas starts at (offset, offset).
 std::string svg_of(const Drawing& drawing, double offset) {
     std::ostringstream out;

@@ -388,6 +388,19 @@ Drawing lines_through_a_point(Random& random, int lines) {
     return out;
 }
 
+Drawing rays_from_a_point(int rays) {
+    const LatticePoint c{kSide / 2, kSide / 2};
+    const auto at = [&](int k) {
+        const double angle = 6.283185307179586 * k / rays;
+        return c + LatticePoint{std::llround(0.4 * static_cast<double>(kSide) * std::cos(angle)),
+                                std::llround(0.4 * static_cast<double>(kSide) * std::sin(angle))};
+    };
+    Drawing out;
+    for (int k = 0; k + 1 < rays; k += 2)
+        out.paths.push_back({{c, at(k)}, {at(k), at(k + 1)}});
+    return out;
+}
+
 CanvasDrawing wide_range_drawing(std::uint64_t seed) {
     Random random(seed);
     CanvasDrawing out;

@@ -27,6 +27,9 @@ struct StressGenerator {
 /// Closed triangles with `lines` edges through one point; every edge passes through it or ends there.
 [[nodiscard]] Drawing lines_through_a_point(Random& random, int lines);
 
+/// Thin triangles around a point, side by side, so that `rays` edges end there and nothing else meets.
+[[nodiscard]] Drawing rays_from_a_point(int rays);
+
 /// A picture in canvas units from 1e-300 to 1e12, with coordinates of very different size.
 struct CanvasDrawing {
     double width = 1, height = 1;
