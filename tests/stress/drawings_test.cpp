@@ -26,7 +26,7 @@ class Drawings : public testing::TestWithParam<StressGenerator> {};
 
 TEST_P(Drawings, HoldEveryInvariant) {
     const StressGenerator& generator = GetParam();
-    for (std::uint64_t seed : stress_seeds(20)) {
+    for (std::uint64_t seed : stress_seeds(10)) {
         const Watchdog watchdog(generator.name, seed);
         const Drawing drawing = stress_drawing(generator, seed);
         const Failure failure = first_failure(drawing, seed);
