@@ -26,7 +26,7 @@ class Drawings : public testing::TestWithParam<StressGenerator> {};
 
 TEST_P(Drawings, HoldEveryInvariant) {
     const StressGenerator& generator = GetParam();
-    for (std::uint64_t seed : stress_seeds(10)) {
+    for (std::uint64_t seed : stress_seeds(8)) {
         const Watchdog watchdog(generator.name, seed);
         const Drawing drawing = stress_drawing(generator, seed);
         const Failure failure = first_failure(drawing, seed);
@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Stress, Drawings, testing::ValuesIn(stress_generators()
                          [](const auto& generator) { return std::string(generator.param.name); });
 
 TEST(WideRange, CoordinatesOfAnySizeHoldEveryInvariant) {
-    for (std::uint64_t seed : stress_seeds(150)) {
+    for (std::uint64_t seed : stress_seeds(100)) {
         const Watchdog watchdog("wide_range", seed);
         const CanvasDrawing drawing = wide_range_drawing(seed);
         SceneBuilder builder(drawing.width, drawing.height);
