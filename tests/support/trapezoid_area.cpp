@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/trapezoid_area.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fetexc::test {
+namespace {
+
+using Real = long double;
+
+/// Control values relative to the texel's corner: differences of integers below 2^45, exact.
+struct Local {
+    int degree = 1;
+    std::array<Real, 4> v{};
+    [[nodiscard]] Real at(Real t) const {
+        std::array<Real, 4> p = v;
+        for (int n = degree; n > 0; --n) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+                p[i] += t * (p[i + 1] - p[i]);
+        }
+        return p[0];
+    }
+    [[nodiscard]] Local derivative() const {
+        Local d;
+        d.degree = std::max(1, degree - 1);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(degree); ++i)
+            d.v[i] = static_cast<Real>(degree) * (v[i + 1] - v[i]);
+        if (degree == 1) d.v[1] = d.v[0];
+        return d;
+    }
+};
+
+Local local(const Curve& c, Axis axis, std::int64_t origin) {
+    Local out;
+    out.degree = c.degree;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(c.degree); ++i)
+        out.v[i] = static_cast<Real>((axis == Axis::X ? c.p[i].x : c.p[i].y) - origin);
+    return out;
+}
+
+/// On a stretch where the values are monotone: Newton steps, kept in a bracket.
+Real parameter_at(const Local& c, const Local& slope, const Interval& range, Real v) {
+    Real lo = range.lo, hi = range.hi, t = (lo + hi) / 2;
+    const bool rises = c.at(lo) < c.at(hi);
+    for (int k = 0; k < 80; ++k) {
+        const Real off = c.at(t) - v, step = off / slope.at(t);
+        ((off < 0) == rises ? lo : hi) = t;
+        Real next = t - step;
+        if (!(next > lo && next < hi)) next = (lo + hi) / 2;
+        if (next == t || std::fabs(next - t) <= std::numeric_limits<Real>::epsilon() * t) return next;
+        t = next;
+    }
+    return t;
+}
+
+const Curve& curve_of(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge) {
+    return *map.stretch_of(texel.sub_edges[texel.graph.edges[edge].sub]).curve;
+}
+
+mpz_class scaled(double v) {
+    mpz_class out;
+    mpz_set_d(out.get_mpz_t(), std::ldexp(v, kPointBits)); // a dyadic number: exact below 2^1024
+    return out;
+}
+
+mpz_class from_fixed(Fixed v) {
+    const mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
+    return ((high << 64) + low) << (kPointBits - budget::kFixedBits);
+}
+
+struct Levels {
+    mpz_class lo, hi;
+};
+
+/// Enclosure of a node's y; the texel's side without a node.
+Levels levels_of(const PlanarMap& map, const TexelMap& texel, std::uint32_t node, bool top, bool finely) {
+    if (node == kNone) {
+        const std::int64_t y = map.grid().py * (static_cast<std::int64_t>(texel.j) + (top ? 0 : 1));
+        const mpz_class v = mpz_class(static_cast<long>(y)) << kPointBits;
+        return {v, v};
+    }
+    const std::uint32_t n = texel.graph.nodes[node];
+    const Interval& y = map.node(n).y_range;
+    if (!finely || y.lo == y.hi) return {scaled(y.lo), scaled(y.hi)};
+    const mpz_class v = from_fixed(map.fixed(n).y), slack = mpz_class(8) << (kPointBits - budget::kFixedBits);
+    return {v - slack, v + slack};
+}
+
+/// A random odd number strictly between.
+std::optional<mpz_class> between(const mpz_class& lo, const mpz_class& hi, Random& random) {
+    const mpz_class gap = hi - lo;
+    if (gap < (mpz_class(1) << 40)) return {};
+    mpz_class v = lo + gap * static_cast<unsigned long>(random.integer(1, (1 << 20) - 1)) / (1ul << 20);
+    if (mpz_even_p(v.get_mpz_t())) v += 1;
+    return v;
+}
+
+/// Where a side passes y; the texel's side without an edge.
+std::optional<ExactRange> side_at(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge, bool right,
+                                  const mpz_class& y) {
+    if (edge == kNone) {
+        const std::int64_t x = map.grid().px * (static_cast<std::int64_t>(texel.i) + (right ? 1 : 0));
+        const mpz_class v = mpz_class(static_cast<long>(x)) << kPointBits;
+        return ExactRange{v, v};
+    }
+    const Stretch s = map.stretch_of(texel.sub_edges[texel.graph.edges[edge].sub]);
+    PlanarCurve curve;
+    curve.degree = s.curve->degree;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(curve.degree); ++i)
+        curve.x[i] = s.curve->p[i].x, curve.y[i] = s.curve->p[i].y;
+    return position_at(curve, s.range.lo, s.range.hi, y);
+}
+
+} // namespace
+
+TrapezoidAreas::TrapezoidAreas(const PlanarMap& map, const TexelMap& texel)
+    : map_(map), texel_(texel), x0_(map.grid().px * texel.i), y0_(map.grid().py * texel.j),
+      width_(static_cast<Real>(map.grid().px)), height_(static_cast<Real>(map.grid().py)) {}
+
+Real TrapezoidAreas::level(std::uint32_t node, bool top) const {
+    if (node == kNone) return top ? 0 : height_;
+    return static_cast<Real>(map_.node(texel_.graph.nodes[node]).y) - static_cast<Real>(y0_);
+}
+
+Real TrapezoidAreas::level_error(std::uint32_t node) const {
+    if (node == kNone) return 0;
+    return static_cast<Real>(map_.node(texel_.graph.nodes[node]).y_range.width());
+}
+
+/// ∫ x dy between two levels: a polynomial of degree 5 in the parameter at most, so three Gauss points are exact.
+Real TrapezoidAreas::side_integral(std::uint32_t edge, bool right, Real y0, Real y1) const {
+    if (edge == kNone) return right ? width_ * (y1 - y0) : 0;
+    const Stretch s = map_.stretch_of(texel_.sub_edges[texel_.graph.edges[edge].sub]);
+    const Local x = local(*s.curve, Axis::X, x0_), y = local(*s.curve, Axis::Y, y0_), dy = y.derivative();
+    const Real t0 = parameter_at(y, dy, s.range, y0), t1 = parameter_at(y, dy, s.range, y1);
+    const Real half = (t1 - t0) / 2, middle = (t0 + t1) / 2, reach = std::sqrt(static_cast<Real>(0.6L)) * half;
+    Real sum = 8 * x.at(middle) * dy.at(middle);
+    for (const Real t : {middle - reach, middle + reach})
+        sum += 5 * x.at(t) * dy.at(t);
+    return half * sum / 9;
+}
+
+/// De Casteljau of values up to M errs by less than 32 units of M in either coordinate (budget::kEvaluationError with
+/// room). An error of x counts over the height; one of y moves the ends of the integral, across the texel's width at
+/// most; the derivative's (three times as large), over a parameter range of at most 1, times x.
+Real TrapezoidAreas::side_error(std::uint32_t edge, Real height) const {
+    if (edge == kNone) return 0;
+    const Curve& c = curve_of(map_, texel_, edge);
+    Real magnitude = 0;
+    for (const auto& [axis, origin] : {std::pair(Axis::X, x0_), std::pair(Axis::Y, y0_)}) {
+        const Local l = local(c, axis, origin);
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(c.degree); ++i)
+            magnitude = std::max(magnitude, std::fabs(l.v[i]));
+    }
+    return 32 * std::numeric_limits<Real>::epsilon() * magnitude * (height + 8 * width_);
+}
+
+/// A level is a double inside its enclosure, so it errs by the enclosure's width (and one rounding of the subtraction).
+/// The result is rounded to double, and once more when it is added up.
+BoundedArea TrapezoidAreas::of(const Trapezoid& t) const {
+    const Real y0 = level(t.top_node, true), y1 = level(t.bottom_node, false), height = std::fabs(y1 - y0);
+    const Real area = side_integral(t.right, true, y0, y1) - side_integral(t.left, false, y0, y1);
+    const Real levels = level_error(t.top_node) + level_error(t.bottom_node) +
+                        4 * std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon() * height_;
+    const Real error = side_error(t.left, height) + side_error(t.right, height) + 2 * levels * width_;
+    return {static_cast<double>(area), static_cast<double>(error) + 0x1p-51 * static_cast<double>(width_ * height_)};
+}
+
+TrapezoidPoint point_in(const PlanarMap& map, const TexelMap& texel, const Trapezoid& t, Random& random) {
+    std::optional<mpz_class> y;
+    for (const bool finely : {false, true}) {
+        if (y) break;
+        const Levels top = levels_of(map, texel, t.top_node, true, finely),
+                     bottom = levels_of(map, texel, t.bottom_node, false, finely);
+        y = between(top.hi, bottom.lo, random);
+    }
+    if (!y) return {};
+    const std::optional<ExactRange> left = side_at(map, texel, t.left, false, *y),
+                                    right = side_at(map, texel, t.right, true, *y);
+    if (!left || !right) return {};
+    if (left->lo > right->hi) return {{}, true};
+    const std::optional<mpz_class> x = between(left->hi, right->lo, random);
+    if (!x) return {};
+    return {ExactPoint{*x, *y}, false};
+}
+
+} // namespace fetexc::test

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Areas of trapezoids by integrals along their sides, and points inside them. Planar space.
+#pragma once
+
+#include <optional>
+
+#include "compiler/planar/texel_map.h"
+#include "tests/support/exact_winding.h"
+#include "tests/support/random.h"
+
+namespace fetexc::test {
+
+struct BoundedArea {
+    double area = 0, error = 0;
+};
+
+class TrapezoidAreas {
+  public:
+    TrapezoidAreas(const PlanarMap& map, const TexelMap& texel);
+    [[nodiscard]] BoundedArea of(const Trapezoid& t) const;
+
+  private:
+    [[nodiscard]] long double level(std::uint32_t node, bool top) const;
+    [[nodiscard]] long double level_error(std::uint32_t node) const;
+    [[nodiscard]] long double side_integral(std::uint32_t edge, bool right, long double y0, long double y1) const;
+    [[nodiscard]] long double side_error(std::uint32_t edge, long double height) const;
+
+    const PlanarMap& map_;
+    const TexelMap& texel_;
+    std::int64_t x0_, y0_; ///< the texel's corner
+    long double width_, height_;
+};
+
+struct TrapezoidPoint {
+    std::optional<ExactPoint> point; ///< none: too thin to find one
+    bool wrong_order = false;        ///< the left side runs right of the right side
+};
+
+/// A random point certainly inside: strictly between the enclosures of the nodes above and below and of both sides.
+[[nodiscard]] TrapezoidPoint point_in(const PlanarMap& map, const TexelMap& texel, const Trapezoid& t, Random& random);
+
+} // namespace fetexc::test
