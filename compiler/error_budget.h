@@ -46,6 +46,13 @@ inline constexpr double kFirstWidening = 0x1p-30;
 inline constexpr int kRefineBits = 96;
 inline constexpr int kRefineBitsLimit = 4096;
 
+/// Halvings of a range after which roots that are still together are looked into for being multiple ones. Decides
+/// nothing.
+inline constexpr int kDescartesHalvings = 16;
+
+/// Bits of a root from which a crossing is certified: some bits of a double are left around it.
+inline constexpr int kNearRootBits = 46;
+
 /// Relative to the size of the curves: a point enclosed no tighter by plain evaluation is narrowed by exact residuals
 /// (geometry/precise). Well-conditioned crossings are at about 2^-44.
 inline constexpr double kPointWidth = 0x1p-40;

@@ -2,10 +2,12 @@
 /// Common points of two stretches through resultants. A root s of R_a says that A(s) lies on B's algebraic curve;
 /// whether it lies on the stretch, and where, is decided by exclusion: A(s) is one of finitely many places, the points
 /// of B at the real roots of R_b and B's isolated point, and all but one of them separate from it at some precision.
+/// Most pairs need none of that: no root in the stretches, or roots that pair up to crossings with a certificate.
 #include <algorithm>
 
+#include "compiler/geometry/dyadic_roots.h"
 #include "compiler/geometry/exact.h"
-#include "compiler/geometry/polynomial.h"
+#include "compiler/geometry/precise.h"
 
 namespace fetexc {
 namespace {
@@ -48,6 +50,19 @@ std::optional<int> exact_end(const Interval& t) {
     return static_cast<int>(t.lo);
 }
 
+/// Rounded outwards.
+Interval enclosure(const RootBracket& root) {
+    return {widen_down(to_double(root.lo, root.bits)), widen_up(to_double(root.hi, root.bits))};
+}
+
+/// A narrowed bracket with one unit more on each side, but within the wide one; rounded inwards.
+Interval container(const RootBracket& wide, const RootBracket& fine) {
+    const double unit = std::ldexp(1.0, -fine.bits);
+    const Interval all(widen_up(to_double(wide.lo, wide.bits)), widen_down(to_double(wide.hi, wide.bits)));
+    return {std::max(all.lo, to_double(fine.lo, fine.bits) - unit),
+            std::min(all.hi, to_double(fine.hi, fine.bits) + unit)};
+}
+
 class ExactIntersection {
   public:
     ExactIntersection(const Stretch& a, const Stretch& b, std::span<const Contact> known)
@@ -59,10 +74,59 @@ class ExactIntersection {
         for (const Contact& k : known_) {
             if (const auto end = exact_end(k.s)) ra_ = without_root(ra_, *end);
         }
+        const auto near_a = near_roots(ra_, a_);
+        if (near_a && near_a->empty()) return ExactOutcome::Done;
+        rb_ = eliminate(*b_.curve, *a_.curve);
+        const auto near_b = near_roots(rb_, b_);
+        if (near_b && near_b->empty()) return ExactOutcome::Done;
+        if (near_a && near_b && pair_up(*near_a, *near_b, hits)) return ExactOutcome::Done;
+        return exclude(hits);
+    }
+
+  private:
+    /// The only root in a range of parameters, and the point there.
+    struct NearRoot {
+        Interval container; ///< within the range; empty: unknown
+        Interval x, y;      ///< encloses the point
+    };
+
+    /// None: perhaps not all roots are simple.
+    static std::optional<std::vector<NearRoot>> near_roots(const Polynomial& p, const Stretch& stretch) {
+        const auto roots =
+            bracket_roots(p, mpq_class(stretch.range.lo), mpq_class(stretch.range.hi), budget::kDescartesHalvings);
+        if (!roots) return {};
+        std::vector<NearRoot> out;
+        for (const RootBracket& root : *roots) {
+            RootBracket fine = root;
+            narrow(fine, p, budget::kNearRootBits);
+            const Interval t = enclosure(fine);
+            out.push_back({container(root, fine), value_over(*stretch.curve, Axis::X, t),
+                           value_over(*stretch.curve, Axis::Y, t)});
+        }
+        return out;
+    }
+
+    /// Crossings with a certificate, and pairs of roots that are apart. False: something else remains.
+    bool pair_up(const std::vector<NearRoot>& on_a, const std::vector<NearRoot>& on_b,
+                 std::vector<ExactHit>& hits) const {
+        std::vector<ExactHit> found;
+        for (const NearRoot& p : on_a) {
+            for (const NearRoot& q : on_b) {
+                if (!p.x.overlaps(q.x) || !p.y.overlaps(q.y)) continue;
+                if (!(p.container.lo < p.container.hi && q.container.lo < q.container.hi)) return false;
+                const auto narrow = narrow_contact(*a_.curve, *b_.curve, {p.container, q.container});
+                if (!narrow) return false;
+                found.push_back({to_interval(narrow->s), to_interval(narrow->t), *narrow});
+            }
+        }
+        hits.insert(hits.end(), found.begin(), found.end());
+        return true;
+    }
+
+    /// Each place at which a root of R_a may be, but one, separates from it.
+    ExactOutcome exclude(std::vector<ExactHit>& hits) {
         int bits = 2 * budget::kRefineBits;
         Roots s = roots_on_a(bits);
-        if (s.empty()) return ExactOutcome::Done;
-        rb_ = eliminate(*b_.curve, *a_.curve);
         singular_ = singular_point(*b_.curve);
         Roots t = to_ranges(isolate_roots(rb_, bits));
         for (std::size_t k = 0; k < s.size(); ++k) {
@@ -75,7 +139,6 @@ class ExactIntersection {
         return ExactOutcome::Done;
     }
 
-  private:
     [[nodiscard]] Roots roots_on_a(int bits) const {
         return to_ranges(isolate_roots(ra_, mpq_class(a_.range.lo), mpq_class(a_.range.hi), bits));
     }

@@ -38,21 +38,18 @@ RationalRange evaluate_over(const Polynomial& p, const RationalRange& t);
 /// Rounded outwards.
 Interval to_interval(const RationalRange& v);
 
-/// Isolating rational intervals, no wider than 2^-bits, of the distinct real roots of p within [lo, hi]. CGAL's
-/// algebraic kernel.
+/// Isolating rational ranges, no wider than 2^-bits, of the distinct real roots of p within [lo, hi], ascending.
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
                                                            const mpq_class& hi, int bits);
 /// The same for all real roots.
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits);
-
 /// A number known exactly: the only root of the polynomial within [lo, hi].
 struct AlgebraicNumber {
     Polynomial polynomial;
     mpq_class lo, hi;
 };
 
-/// −1, 0, +1 for a < b, a = b, a > b, exact (CGAL's algebraic kernel; rational numbers directly). None: an interval
-/// doesn't hold exactly one root.
+/// −1, 0, +1 for a < b, a = b, a > b, exact. None: an interval doesn't hold exactly one root.
 std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumber& b);
 
 /// Sign of q at the number, exact. None as above.

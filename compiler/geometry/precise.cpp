@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/precise.h"
 
-#include "compiler/geometry/polynomial.h"
+#include "compiler/geometry/dyadic_roots.h"
 
 namespace fetexc {
 namespace {
@@ -13,19 +13,6 @@ struct Dyadic {
     int bits = budget::kPreciseBits;
 };
 
-mpz_class to_dyadic(double t, int bits) {
-    mpz_class v;
-    mpz_set_d(v.get_mpz_t(), std::ldexp(t, bits)); // truncated below 2^-bits: a starting point only
-    return v;
-}
-
-/// v·2^-bits, rounded towards zero.
-double to_double(const mpz_class& v, int bits) {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, v.get_mpz_t());
-    return std::ldexp(mantissa, static_cast<int>(exponent) - bits);
-}
-
 Interval enclose(const mpz_class& v, int bits) {
     const double d = to_double(v, bits);
     return {widen_down(d), widen_up(d)};
@@ -36,23 +23,10 @@ Interval range_of(const Dyadic& t) {
     return {widen_down(mid.lo - t.radius), widen_up(mid.hi + t.radius)};
 }
 
-/// p(value·2^-bits)·2^(scale·bits), exact; degree ≤ scale.
-mpz_class evaluate_dyadic(const Polynomial& p, const mpz_class& value, int bits, std::size_t scale) {
-    mpz_class sum = 0, term;
-    for (std::size_t i = p.size(); i-- > 0;) {
-        sum *= value;
-        mpz_mul_2exp(term.get_mpz_t(), p[i].get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * (p.size() - 1 - i));
-        sum += term;
-    }
-    const std::size_t missing = p.empty() ? 0 : scale + 1 - p.size();
-    mpz_mul_2exp(sum.get_mpz_t(), sum.get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * missing);
-    return sum;
-}
-
-mpz_class evaluate_dyadic(const Polynomial& p, const Dyadic& t) { return evaluate_dyadic(p, t.value, t.bits, 3); }
+mpz_class evaluate_at(const Polynomial& p, const Dyadic& t) { return evaluate_dyadic(p, t.value, t.bits, 3); }
 
 Interval coordinate_at(const Curve& c, Axis axis, const Dyadic& t) {
-    const Interval mid = enclose(evaluate_dyadic(power_basis(c, axis), t), 3 * t.bits);
+    const Interval mid = enclose(evaluate_at(power_basis(c, axis), t), 3 * t.bits);
     if (t.radius == 0) return mid;
     const double reach = widen_up(derivative_over(c, axis, range_of(t)).magnitude() * t.radius);
     return {widen_down(mid.lo - reach), widen_up(mid.hi + reach)};
@@ -85,40 +59,18 @@ PointEnclosure meet(const PointEnclosure& a, const PointEnclosure& b) { return {
 
 // --- one polynomial
 
-/// p(t) in double, for steps only.
-double evaluate_double(const Polynomial& p, double t) {
-    double sum = 0;
-    for (std::size_t i = p.size(); i-- > 0;)
-        sum = sum * t + p[i].get_d();
-    return sum;
-}
-
 /// Narrows a root whose sign change shows at the ends of t, to one step of 2^-bits. None when it doesn't show there.
-/// Newton steps that go slightly too far, so that the bracket closes from both sides; each new end is an exact sign.
 std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t, int bits) {
-    mpz_class lo = to_dyadic(t.lo, bits), hi = to_dyadic(t.hi, bits);
+    RootBracket root{to_dyadic(t.lo, bits), to_dyadic(t.hi, bits), bits, 0};
     const std::size_t scale = p.empty() ? 0 : p.size() - 1;
-    const int at_lo = sgn(evaluate_dyadic(p, lo, bits, scale)), at_hi = sgn(evaluate_dyadic(p, hi, bits, scale));
-    if (at_lo == 0 && lo <= hi) return Dyadic{lo, 0, bits};
-    if (at_hi == 0) return Dyadic{hi, 0, bits};
+    const int at_lo = sgn(evaluate_dyadic(p, root.lo, bits, scale)),
+              at_hi = sgn(evaluate_dyadic(p, root.hi, bits, scale));
+    if (at_lo == 0 && root.lo <= root.hi) return Dyadic{root.lo, 0, bits};
+    if (at_hi == 0) return Dyadic{root.hi, 0, bits};
     if (at_lo * at_hi > 0) return {};
-    const Polynomial slope = derivative(p);
-    mpz_class mid = (lo + hi) / 2, width = hi - lo;
-    while (width > 1) {
-        const mpz_class value = evaluate_dyadic(p, mid, bits, scale);
-        if (value == 0) return Dyadic{mid, 0, bits};
-        (sgn(value) == at_lo ? lo : hi) = mid;
-        const mpz_class before = width;
-        width = hi - lo;
-        const double step =
-            to_double(value, bits * static_cast<int>(scale)) / evaluate_double(slope, to_double(mid, bits));
-        if (std::fabs(step) <= 1 && width < before) {
-            mid -= to_dyadic(step * (1 + budget::kNewtonOvershoot), bits) + (step > 0 ? 1 : -1);
-            if (lo < mid && mid < hi && 4 * width < 3 * before) continue;
-        }
-        mid = (lo + hi) / 2;
-    }
-    return Dyadic{lo, std::ldexp(1.0, -bits), bits};
+    root.sign_before = at_lo;
+    narrow(root, p, bits);
+    return Dyadic{root.lo, root.lo == root.hi ? 0 : std::ldexp(1.0, -bits), bits};
 }
 
 RationalRange rational_range(const Dyadic& t) {
@@ -164,8 +116,8 @@ class ContactRefiner {
         Interval x, y;
     };
     [[nodiscard]] Residual residual() const {
-        return {enclose(evaluate_dyadic(ax_, s_) - evaluate_dyadic(bx_, t_), 3 * bits_),
-                enclose(evaluate_dyadic(ay_, s_) - evaluate_dyadic(by_, t_), 3 * bits_)};
+        return {enclose(evaluate_at(ax_, s_) - evaluate_at(bx_, t_), 3 * bits_),
+                enclose(evaluate_at(ay_, s_) - evaluate_at(by_, t_), 3 * bits_)};
     }
 
     bool step(double& ds, double& dt) {
@@ -254,8 +206,8 @@ Fixed to_fixed(const mpz_class& v, int bits) {
 }
 
 FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
-    return {to_fixed(evaluate_dyadic(power_basis(c, Axis::X), t), 3 * t.bits),
-            to_fixed(evaluate_dyadic(power_basis(c, Axis::Y), t), 3 * t.bits)};
+    return {to_fixed(evaluate_at(power_basis(c, Axis::X), t), 3 * t.bits),
+            to_fixed(evaluate_at(power_basis(c, Axis::Y), t), 3 * t.bits)};
 }
 
 } // namespace

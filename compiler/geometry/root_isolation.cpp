@@ -6,9 +6,9 @@
 
 #include <mutex>
 
-#include "compiler/geometry/polynomial.h"
+#include "compiler/geometry/algebraic_kernel.h"
 
-namespace fetexc {
+namespace fetexc::kernel {
 namespace {
 
 using Integer = CORE::BigInt;
@@ -38,51 +38,32 @@ Roots solve(const Kernel& kernel, const Polynomial& p, const mpq_class& lo, cons
     return roots;
 }
 
-Roots solve(const Kernel& kernel, const Polynomial& p) {
-    const Kernel::Polynomial_1 square_free = kernel.make_square_free_1_object()(to_polynomial(p));
-    Roots roots;
-    kernel.solve_1_object()(square_free, true, std::back_inserter(roots));
-    return roots;
-}
+} // namespace
 
-std::vector<std::pair<mpq_class, mpq_class>> approximate(const Kernel& kernel, const Roots& roots, int bits) {
+std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
+                                                           const mpq_class& hi, int bits) {
+    const std::lock_guard lock(mutex);
+    const Kernel kernel;
     const auto narrow = kernel.approximate_absolute_1_object();
     std::vector<std::pair<mpq_class, mpq_class>> out;
-    for (const auto& root : roots) {
+    for (const auto& root : solve(kernel, p, lo, hi)) {
         const auto bounds = narrow(root, bits);
         out.emplace_back(to_mpq(bounds.first), to_mpq(bounds.second));
     }
     return out;
 }
 
-/// The root of a linear polynomial.
-mpq_class rational_root(const Polynomial& p) {
-    mpq_class r(-p[0], p[1]);
-    r.canonicalize();
-    return r;
-}
-
-} // namespace
-
-std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
-                                                           const mpq_class& hi, int bits) {
-    if (p.size() < 2) return {};
+Polynomial square_free_part(const Polynomial& p) {
     const std::lock_guard lock(mutex);
     const Kernel kernel;
-    return approximate(kernel, solve(kernel, p, lo, hi), bits);
-}
-
-std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits) {
-    if (p.size() < 2) return {};
-    const std::lock_guard lock(mutex);
-    const Kernel kernel;
-    return approximate(kernel, solve(kernel, p), bits);
+    const Kernel::Polynomial_1 q = kernel.make_square_free_1_object()(to_polynomial(p));
+    Polynomial out;
+    for (int i = 0; i <= q.degree(); ++i)
+        out.emplace_back(q[i].get_mp());
+    return out;
 }
 
 std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumber& b) {
-    if (a.polynomial.size() == 2 && b.polynomial.size() == 2)
-        return cmp(rational_root(a.polynomial), rational_root(b.polynomial));
-    if (a.polynomial.size() < 2 || b.polynomial.size() < 2) return {};
     const std::lock_guard lock(mutex);
     const Kernel kernel;
     const auto ra = solve(kernel, a.polynomial, a.lo, a.hi), rb = solve(kernel, b.polynomial, b.lo, b.hi);
@@ -91,9 +72,6 @@ std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumb
 }
 
 std::optional<int> sign_at(const Polynomial& q, const AlgebraicNumber& a) {
-    if (q.empty()) return 0;
-    if (a.polynomial.size() == 2) return sgn(evaluate(q, rational_root(a.polynomial)));
-    if (a.polynomial.size() < 2) return {};
     const std::lock_guard lock(mutex);
     const Kernel kernel;
     const auto roots = solve(kernel, a.polynomial, a.lo, a.hi);
@@ -101,4 +79,4 @@ std::optional<int> sign_at(const Polynomial& q, const AlgebraicNumber& a) {
     return static_cast<int>(kernel.sign_at_1_object()(to_polynomial(q), roots[0]));
 }
 
-} // namespace fetexc
+} // namespace fetexc::kernel
