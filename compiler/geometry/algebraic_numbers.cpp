@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Roots of integer polynomials: by brackets in integer arithmetic, and by CGAL's algebraic kernel what those leave
 /// open.
-#include <algorithm>
-
 #include "compiler/geometry/algebraic_kernel.h"
 #include "compiler/geometry/dyadic_roots.h"
 
@@ -78,12 +76,7 @@ std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, 
 
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits) {
     if (p.size() < 2) return {};
-    // All roots are below 1 + max |p[i]/p[n]| (Cauchy).
-    std::size_t largest = 0;
-    for (const mpz_class& c : p)
-        largest = std::max(largest, mpz_sizeinbase(c.get_mpz_t(), 2));
-    mpz_class bound = 1;
-    mpz_mul_2exp(bound.get_mpz_t(), bound.get_mpz_t(), largest - mpz_sizeinbase(p.back().get_mpz_t(), 2) + 2);
+    const mpz_class bound = root_bound(p);
     return isolate_roots(p, -bound, bound, bits);
 }
 

@@ -218,6 +218,16 @@ std::optional<std::vector<RootBracket>> bracket_roots(const Polynomial& p, const
     return roots;
 }
 
+/// Cauchy: below 1 + max |p[i]/p[n]|.
+mpz_class root_bound(const Polynomial& p) {
+    std::size_t largest = 0;
+    for (const mpz_class& c : p)
+        largest = std::max(largest, mpz_sizeinbase(c.get_mpz_t(), 2));
+    mpz_class bound = 1;
+    shift_left(bound, largest - mpz_sizeinbase(p.back().get_mpz_t(), 2) + 2);
+    return bound;
+}
+
 namespace {
 
 constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;

@@ -37,6 +37,9 @@ void narrow(RootBracket& root, const Polynomial& p, int bits);
 std::optional<std::vector<RootBracket>> bracket_roots(const Polynomial& p, const mpq_class& lo, const mpq_class& hi,
                                                       int halvings);
 
+/// A power of two beyond all real roots.
+mpz_class root_bound(const Polynomial& p);
+
 /// Decided modulo a prime: false may be wrong.
 bool certainly_square_free(const Polynomial& p);
 

@@ -57,6 +57,8 @@ enum class ExactOutcome { Done, CommonComponent, Undecided };
 /// kRefineBits. Those of `known` contacts with an exact parameter (0 or 1) are left out.
 ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits,
                              std::span<const Contact> known = {});
+/// The same with every root from CGAL's algebraic kernel: slow, for tests.
+ExactOutcome intersect_by_kernel(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits);
 
 /// The singular point of a cubic: s + t and s·t of its parameters. They are real and different where the cubic crosses
 /// itself, equal at a cusp, complex where the point is isolated.

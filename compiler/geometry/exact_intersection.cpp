@@ -5,6 +5,7 @@
 /// Most pairs need none of that: no root in the stretches, or roots that pair up to crossings with a certificate.
 #include <algorithm>
 
+#include "compiler/geometry/algebraic_kernel.h"
 #include "compiler/geometry/dyadic_roots.h"
 #include "compiler/geometry/exact.h"
 #include "compiler/geometry/precise.h"
@@ -66,20 +67,27 @@ Interval container(const RootBracket& wide, const RootBracket& fine) {
 class ExactIntersection {
   public:
     ExactIntersection(const Stretch& a, const Stretch& b, std::span<const Contact> known)
-        : a_(a), b_(b), known_(known), on_a_(*a.curve), on_b_(*b.curve) {}
-
-    ExactOutcome run(std::vector<ExactHit>& hits) {
-        ra_ = eliminate(*a_.curve, *b_.curve);
-        if (ra_.empty()) return ExactOutcome::CommonComponent;
+        : a_(a), b_(b), known_(known), on_a_(*a.curve), on_b_(*b.curve), ra_(eliminate(*a.curve, *b.curve)) {
         for (const Contact& k : known_) {
             if (const auto end = exact_end(k.s)) ra_ = without_root(ra_, *end);
         }
+    }
+
+    ExactOutcome run(std::vector<ExactHit>& hits) {
+        if (ra_.empty()) return ExactOutcome::CommonComponent;
         const auto near_a = near_roots(ra_, a_);
         if (near_a && near_a->empty()) return ExactOutcome::Done;
         rb_ = eliminate(*b_.curve, *a_.curve);
         const auto near_b = near_roots(rb_, b_);
         if (near_b && near_b->empty()) return ExactOutcome::Done;
         if (near_a && near_b && pair_up(*near_a, *near_b, hits)) return ExactOutcome::Done;
+        return exclude(hits);
+    }
+
+    ExactOutcome run_by_kernel(std::vector<ExactHit>& hits) {
+        if (ra_.empty()) return ExactOutcome::CommonComponent;
+        by_kernel_ = true;
+        rb_ = eliminate(*b_.curve, *a_.curve);
         return exclude(hits);
     }
 
@@ -128,19 +136,29 @@ class ExactIntersection {
         int bits = 2 * budget::kRefineBits;
         Roots s = roots_on_a(bits);
         singular_ = singular_point(*b_.curve);
-        Roots t = to_ranges(isolate_roots(rb_, bits));
+        Roots t = roots_on_b(bits);
         for (std::size_t k = 0; k < s.size(); ++k) {
             while (!place(s[k], t, hits)) {
                 bits *= 2;
                 if (bits > budget::kRefineBitsLimit) return ExactOutcome::Undecided;
-                s = roots_on_a(bits), t = to_ranges(isolate_roots(rb_, bits));
+                s = roots_on_a(bits), t = roots_on_b(bits);
             }
         }
         return ExactOutcome::Done;
     }
 
     [[nodiscard]] Roots roots_on_a(int bits) const {
-        return to_ranges(isolate_roots(ra_, mpq_class(a_.range.lo), mpq_class(a_.range.hi), bits));
+        return roots_of(ra_, mpq_class(a_.range.lo), mpq_class(a_.range.hi), bits);
+    }
+
+    /// All real ones.
+    [[nodiscard]] Roots roots_on_b(int bits) const {
+        const mpz_class bound = root_bound(rb_);
+        return roots_of(rb_, -bound, bound, bits);
+    }
+
+    [[nodiscard]] Roots roots_of(const Polynomial& p, const mpq_class& lo, const mpq_class& hi, int bits) const {
+        return to_ranges(by_kernel_ ? kernel::isolate_roots(p, lo, hi, bits) : isolate_roots(p, lo, hi, bits));
     }
 
     /// False: more than one place is left.
@@ -170,7 +188,8 @@ class ExactIntersection {
                 Polynomial q;
                 for (const mpz_class& c : p)
                     q.push_back(c * v.get_den());
-                return sign_at(minus(q, v.get_num()), {rb_, r.lo, r.hi}) == 0;
+                const auto sign = by_kernel_ ? kernel::sign_at : sign_at;
+                return sign(minus(q, v.get_num()), {rb_, r.lo, r.hi}) == 0;
             };
             return on(on_b_.x, singular_->x) && on(on_b_.y, singular_->y);
         };
@@ -189,6 +208,7 @@ class ExactIntersection {
     std::span<const Contact> known_;
     Coordinates on_a_, on_b_;
     Polynomial ra_, rb_;
+    bool by_kernel_ = false;
     std::optional<DoublePoint> singular_; ///< of b
 };
 
@@ -197,6 +217,10 @@ class ExactIntersection {
 ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits,
                              std::span<const Contact> known) {
     return ExactIntersection(a, b, known).run(hits);
+}
+
+ExactOutcome intersect_by_kernel(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits) {
+    return ExactIntersection(a, b, {}).run_by_kernel(hits);
 }
 
 } // namespace fetexc

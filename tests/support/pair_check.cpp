@@ -141,7 +141,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> box_pairs_of(const std::vec
 KernelHits kernel_hits(const Piece& a, const Piece& b) {
     if (a.curve == b.curve) return hits_on_one_curve(a, b);
     std::vector<ExactHit> all;
-    const ExactOutcome outcome = intersect_exact(widened(a), widened(b), all);
+    const ExactOutcome outcome = intersect_by_kernel(widened(a), widened(b), all);
     if (outcome == ExactOutcome::CommonComponent) return hits_on_one_curve(a, b);
     KernelHits out;
     out.decided = outcome == ExactOutcome::Done;
