@@ -30,6 +30,7 @@ Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& opti
     svg.system_fonts = options.system_fonts;
     svg.resources_dir = options.resources;
     svg.raster_pixels = options.raster_size != 0 ? options.raster_size : raster_size_for(texels);
+    svg.cull = options.cull;
     const auto bytes = read_input(path, svg.limits.bytes);
     if (!bytes) return bytes.error();
     auto scene = load_svg(bytes.value(), svg, diagnostics);

@@ -16,6 +16,7 @@ struct SceneOptions {
     bool system_fonts = false;
     std::string resources;         ///< folder from which bitmaps named by the drawing are read; empty: none
     std::uint32_t raster_size = 0; ///< pixels on the longer side for what can't be vector; 0: raster_size_for(texels)
+    bool cull = true;              ///< SkipRules::layers
 };
 
 struct LoadedScene {

@@ -78,7 +78,8 @@ LineKey line_key(const Curve& c) {
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, const Grid& grid, PlanarStats& stats) : scene_(scene), grid_(grid), stats_(stats) {}
+    Preparer(const Scene& scene, const Grid& grid, const SkipRules& skip, PlanarStats& stats)
+        : scene_(scene), grid_(grid), skip_(skip), stats_(stats) {}
 
     ArcSet run(std::span<const SharedSupport> shared) {
         collect();
@@ -126,7 +127,7 @@ class Preparer {
             ++stats_.segments_null;
             return;
         }
-        if (irrelevant(use.curve)) return;
+        if (skip_.outside && irrelevant(use.curve)) return;
         canonicalise(use);
         (use.curve.degree == 1 ? lines_ : bent_).push_back(std::move(use));
     }
@@ -350,6 +351,7 @@ class Preparer {
 
     const Scene& scene_;
     const Grid& grid_;
+    const SkipRules& skip_;
     PlanarStats& stats_;
     std::vector<Use> lines_, bent_;
     std::vector<Weighted> weighted_;
@@ -365,8 +367,9 @@ class Preparer {
 
 } // namespace
 
-ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats) {
-    return Preparer(scene, grid, stats).run(shared);
+ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
+                    const SkipRules& skip) {
+    return Preparer(scene, grid, skip, stats).run(shared);
 }
 
 } // namespace fetexc

@@ -64,6 +64,7 @@ struct ArcSet {
 /// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges
 /// identical, reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of
 /// curves found by an earlier pass over the same scene; their common stretches become one arc.
-ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats);
+ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
+                    const SkipRules& skip = {});
 
 } // namespace fetexc

@@ -47,8 +47,8 @@ bool flat(const Interval& v) { return v.lo == v.hi; }
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, ChunkResult& out)
-        : set_(set), shapes_(shapes), out_(out) {}
+    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, const SkipRules& skip, ChunkResult& out)
+        : set_(set), shapes_(shapes), skip_(skip), out_(out) {}
 
     void operator()(std::uint32_t ia, std::uint32_t ib) {
         const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
@@ -58,7 +58,7 @@ class PairTest {
             return;
         }
         const ControlPolygon &pa = shapes_[ia].polygon, &pb = shapes_[ib].polygon;
-        if (intersect_certified(pa, pb, known_, found_) == PairOutcome::Certified) {
+        if (skip_.certificate && intersect_certified(pa, pb, known_, found_) == PairOutcome::Certified) {
             ++out_.certified;
         } else if (a.curve == b.curve) {
             ++out_.exact;
@@ -85,7 +85,7 @@ class PairTest {
                 // Only the shared vertex has that abscissa (ordinate) on an arc that isn't vertical (horizontal).
                 const bool only_x = within(ox, v.x) && !(flat(ba.x) && flat(bb.x));
                 const bool only_y = within(oy, v.y) && !(flat(ba.y) && flat(bb.y));
-                if (only_x || only_y) return false;
+                if (skip_.shared_ends && (only_x || only_y)) return false;
             }
         }
         end_on_other(ia, ib, a, ib, true);
@@ -161,6 +161,7 @@ class PairTest {
 
     const ArcSet& set_;
     const std::vector<ArcShape>& shapes_;
+    const SkipRules& skip_;
     ChunkResult& out_;
     std::vector<Contact> known_, found_;
 };
@@ -178,11 +179,12 @@ std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<ArcShape>&
 }
 
 ChunkResult test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes,
-                       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads) {
+                       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads,
+                       const SkipRules& skip) {
     constexpr std::size_t chunk = 1024;
     std::vector<ChunkResult> results((pairs.size() + chunk - 1) / chunk);
     parallel_for(results.size(), threads, [&](std::size_t k) {
-        PairTest test(set, shapes, results[k]);
+        PairTest test(set, shapes, skip, results[k]);
         for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
             test(pairs[i].first, pairs[i].second);
     });
@@ -277,20 +279,21 @@ std::optional<Vertex> cut_arcs(Arrangement& out, const std::vector<PairContact>&
 
 } // namespace
 
-Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
+Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                            const SkipRules& skip) {
     std::vector<SharedSupport> shared;
     // A pass that finds partial overlaps starts again with them joined; each pass adds at least one pair, real art
     // needs none or one.
     for (;;) {
         PlanarStats pass = {};
         Arrangement out;
-        out.set = prepare_arcs(scene, grid, shared, pass);
+        out.set = prepare_arcs(scene, grid, shared, pass, skip);
         std::vector<ArcShape> shapes;
         shapes.reserve(out.set.arcs.size());
         for (const Arc& a : out.set.arcs)
             shapes.push_back(shape_of(out.set, a));
         const auto pairs = overlapping_pairs(canvas_boxes(grid, shapes));
-        ChunkResult found = test_pairs(out.set, shapes, pairs, threads);
+        ChunkResult found = test_pairs(out.set, shapes, pairs, threads, skip);
         std::sort(found.shared.begin(), found.shared.end());
         found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
         const std::size_t known = shared.size();

@@ -317,8 +317,9 @@ class PlanarMap::Builder {
     std::optional<PointEnclosure> undecided_;
 };
 
-Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
-    Result<Arrangement> arrangement = arrange(scene, grid, threads, stats);
+Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                                   const SkipRules& skip) {
+    Result<Arrangement> arrangement = arrange(scene, grid, threads, stats, skip);
     if (!arrangement) return arrangement.error();
     PlanarMap map;
     map.grid_ = grid;

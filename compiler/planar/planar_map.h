@@ -65,7 +65,8 @@ void add_winding(Windings& w, std::uint32_t shape, std::int32_t change);
 
 class PlanarMap {
   public:
-    static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats);
+    static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                                   const SkipRules& skip = {});
 
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }

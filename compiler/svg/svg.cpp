@@ -76,7 +76,7 @@ Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& op
     if (!document) return to_error(error);
     const fetexc_svg_view& view = *fetexc_svg_get(document.get());
     append_findings(view, diagnostics);
-    return svg::to_scene(view, diagnostics);
+    return svg::to_scene(view, options.cull, diagnostics);
 }
 
 } // namespace fetexc

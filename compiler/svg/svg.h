@@ -32,6 +32,7 @@ struct SvgOptions {
     std::filesystem::path resources_dir;
     std::uint32_t raster_pixels = 1024; ///< resolution of raster layers: pixels on the larger canvas side, 16 … 16384
     SvgLimits limits;
+    bool cull = true; ///< SkipRules::layers
 };
 
 /// Everything visible becomes fills of canvas-space paths (strokes outlined, text to outlines), hard gradient edges
