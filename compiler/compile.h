@@ -25,7 +25,7 @@ GridSize grid_for(const Extent& extent, std::uint32_t longer_side);
 struct CompileOptions {
     GridSize size;
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
-    SkipRules skip;       ///< nor do these
+    SkipRules skip = {};  ///< nor do these
 };
 
 /// Called from one thread at a time; fraction in [0,1].
