@@ -8,6 +8,7 @@
 
 #include "compiler/geometry/monotone.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/parallel.h"
 #include "compiler/planar/exact_points.h"
 
 namespace fetexc {
@@ -78,8 +79,8 @@ LineKey line_key(const Curve& c) {
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, const Grid& grid, const SkipRules& skip, PlanarStats& stats)
-        : scene_(scene), grid_(grid), skip_(skip), stats_(stats) {}
+    Preparer(const Scene& scene, const Grid& grid, unsigned threads, const SkipRules& skip, PlanarStats& stats)
+        : scene_(scene), grid_(grid), threads_(threads), skip_(skip), stats_(stats) {}
 
     ArcSet run(std::span<const SharedSupport> shared) {
         collect();
@@ -216,7 +217,19 @@ class Preparer {
         std::uint32_t vertex;
     };
 
+    void find_extrema(std::size_t first_curve) {
+        constexpr std::size_t chunk = 256;
+        const std::size_t curves = out_.curves.size();
+        extrema_.resize(curves);
+        parallel_for((curves - first_curve + chunk - 1) / chunk, threads_, [&](std::size_t c) {
+            const std::size_t first = first_curve + c * chunk;
+            for (std::size_t k = first; k < std::min(curves, first + chunk); ++k)
+                extrema_[k] = extrema(out_.curves[k]);
+        });
+    }
+
     void emit_all(std::span<const SharedSupport> shared, std::size_t first_curve) {
+        find_extrema(first_curve);
         ends_.reserve(2 * weighted_.size());
         std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
         std::vector<bool> grouped(weighted_.size(), false);
@@ -237,9 +250,8 @@ class Preparer {
     void emit_monotone(std::uint32_t curve, End from, const End& to, const std::vector<Contribution>& sums, bool bent) {
         const std::uint32_t first = static_cast<std::uint32_t>(out_.contributions.size());
         out_.contributions.insert(out_.contributions.end(), sums.begin(), sums.end());
-        const Curve& c = out_.curves[curve];
         if (bent) {
-            for (Interval t : extrema(c)) {
+            for (Interval t : extrema_[curve]) {
                 if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue;
                 const std::uint32_t vertex = vertex_on(curve, t); // narrows t
                 const End cut{t, vertex};
@@ -351,10 +363,12 @@ class Preparer {
 
     const Scene& scene_;
     const Grid& grid_;
+    unsigned threads_;
     const SkipRules& skip_;
     PlanarStats& stats_;
     std::vector<Use> lines_, bent_;
     std::vector<Weighted> weighted_;
+    std::vector<std::vector<Interval>> extrema_; ///< per curve
     ArcSet out_;
     struct PointHash {
         std::size_t operator()(const IntPoint& p) const {
@@ -368,8 +382,8 @@ class Preparer {
 } // namespace
 
 ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
-                    const SkipRules& skip) {
-    return Preparer(scene, grid, skip, stats).run(shared);
+                    unsigned threads, const SkipRules& skip) {
+    return Preparer(scene, grid, threads, skip, stats).run(shared);
 }
 
 } // namespace fetexc

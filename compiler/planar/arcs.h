@@ -65,6 +65,6 @@ struct ArcSet {
 /// identical, reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of
 /// curves found by an earlier pass over the same scene; their common stretches become one arc.
 ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
-                    const SkipRules& skip = {});
+                    unsigned threads = 1, const SkipRules& skip = {});
 
 } // namespace fetexc

@@ -287,7 +287,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
     for (;;) {
         PlanarStats pass = {};
         Arrangement out;
-        out.set = prepare_arcs(scene, grid, shared, pass, skip);
+        out.set = prepare_arcs(scene, grid, shared, pass, threads, skip);
         std::vector<ArcShape> shapes;
         shapes.reserve(out.set.arcs.size());
         for (const Arc& a : out.set.arcs)
