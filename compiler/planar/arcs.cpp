@@ -266,9 +266,12 @@ class Preparer {
         const Vertex &va = out_.vertices[a.vertex], &vb = out_.vertices[b.vertex];
         Arc arc;
         arc.curve = curve, arc.t0 = a.t, arc.t1 = b.t, arc.v0 = a.vertex, arc.v1 = b.vertex;
-        arc.x_increasing = compare_coordinates(out_, va, vb, Axis::X) <= 0;
+        const std::optional<int> x = compare_coordinates(out_, va, vb, Axis::X),
+                                 y_order = compare_coordinates(out_, va, vb, Axis::Y);
+        if ((!x || !y_order) && out_.undecided == kNone) out_.undecided = a.vertex;
+        arc.x_increasing = x.value_or(0) <= 0;
         // A level arc counts as falling slightly to the right.
-        const int y = compare_coordinates(out_, va, vb, Axis::Y);
+        const int y = y_order.value_or(0);
         arc.y_increasing = y == 0 ? arc.x_increasing : y < 0;
         arc.first_contribution = first, arc.contributions = static_cast<std::uint32_t>(count);
         out_.arcs.push_back(arc);

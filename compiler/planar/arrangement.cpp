@@ -305,6 +305,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         add_vertices(out.set, found.contacts);
         pass.exact_comparisons = found.exact_comparisons;
         std::optional<Vertex> undecided = found.undecided;
+        if (out.set.undecided != kNone) undecided = out.set.vertices[out.set.undecided];
         if (!undecided) undecided = cut_arcs(out, found.contacts, pass);
         pass.box_pairs = pairs.size(), pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;

@@ -47,7 +47,7 @@ bool TexelMapper::analyse(std::uint32_t i, std::uint32_t j, const Windings& corn
     collect(out.sub_edges, out.graph);
     const bool done = skip_.direct_sweep ? sweep_.run(out.sub_edges, out.graph, {}, out.frame, out.sweep)
                                          : arrangement_.run(out.sub_edges, out.graph, out.frame, out.sweep);
-    if (!done) return false;
+    if (!done || order_.undecided()) return false;
     stats_.trapezoids += out.sweep.trapezoids.size();
     return assign_results(corner, out);
 }

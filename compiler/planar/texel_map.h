@@ -40,7 +40,7 @@ class TexelMapper {
   public:
     TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats,
                 const SkipRules& skip = {})
-        : map_(map), skip_(skip), stats_(stats), order_(map), sweep_(map, order_, stats),
+        : map_(map), skip_(skip), stats_(stats), order_(map, stats), sweep_(map, order_, stats),
           arrangement_(map, order_, stats), lookup_(scene, compositor) {}
 
     /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the

@@ -159,15 +159,7 @@ int GlobalPlane::compare_coordinate_exactly(std::uint32_t a, std::uint32_t b, Ax
         if (d > budget::kFixedCertain || d < -budget::kFixedCertain) return sign_of(d);
     }
     ++counts_.coordinates_exact;
-    const auto level = [&](std::uint32_t k) { return axis == Axis::X ? points_[k].point.x : points_[k].point.y; };
-    std::optional<int> c;
-    if (points_[b].integral)
-        c = side_of_level(set_, points_[a], axis, level(b));
-    else if (points_[a].integral) {
-        c = side_of_level(set_, points_[b], axis, level(a));
-        if (c) c = -*c;
-    } else
-        c = compare_numbers(coordinate(a, axis), coordinate(b, axis));
+    const std::optional<int> c = fetexc::compare(coordinate(a, axis), coordinate(b, axis));
     if (!c) undecided("order of two points", a);
     return *c;
 }
@@ -178,12 +170,10 @@ const std::optional<FixedPoint>& GlobalPlane::fixed_of(std::uint32_t point) {
     return it->second;
 }
 
-const AlgebraicNumber& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
+const AlgebraicCoordinate& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
     const auto [it, fresh] = coordinates_.try_emplace({point, axis});
     if (fresh) {
-        std::optional<AlgebraicNumber> n = coordinate_of(set_, points_[point], axis);
-        if (!n) undecided("coordinate", point);
-        it->second = std::move(*n);
+        it->second = algebraic_coordinate(set_, points_[point], axis);
     }
     return it->second;
 }
@@ -191,9 +181,9 @@ const AlgebraicNumber& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
 const RationalBox& GlobalPlane::box(std::uint32_t point, int bits) {
     const auto [it, fresh] = boxes_.try_emplace({point, bits});
     if (fresh) {
-        std::optional<RationalBox> b = box_of(set_, points_[point], bits);
-        if (!b) undecided("place", point);
-        it->second = std::move(*b);
+        const auto x = narrowed(coordinate(point, Axis::X), bits), y = narrowed(coordinate(point, Axis::Y), bits);
+        if (!x || !y) undecided("place", point);
+        it->second = {*x, *y};
     }
     return it->second;
 }
