@@ -3,7 +3,7 @@
 //! and in f64 with arcs kept. A usvg path whose points equal a fingerprint takes the exact geometry.
 
 use std::collections::hash_map::DefaultHasher;
-use std::hash::{Hash, Hasher};
+use std::hash::Hasher;
 
 use kurbo::{CubicBez, Point, QuadBez, SvgArc};
 use svgtypes::{PathParser, PathSegment, SimplePathSegment, SimplifyingPathParser};
@@ -90,10 +90,10 @@ pub fn fingerprint(path: &tiny_skia_path::Path) -> u64 {
             PathVerb::Cubic => 3,
             PathVerb::Close => 4,
         };
-        code.hash(&mut hasher);
+        hasher.write_u8(code);
     }
     for p in path.points() {
-        (p.x.to_bits(), p.y.to_bits()).hash(&mut hasher);
+        hasher.write_u64((p.x.to_bits() as u64) << 32 | p.y.to_bits() as u64);
     }
     hasher.finish()
 }
