@@ -78,7 +78,7 @@ Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& o
     const SkipRules skip = skip_rules_without(options.no_skip);
     SceneOptions scene_options = options.scene;
     scene_options.cull = skip.layers;
-    auto loaded = load_scene(job.input, scene_options, texels, diagnostics);
+    auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
     auto build = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads, skip}, progress.sink());

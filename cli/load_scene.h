@@ -27,8 +27,9 @@ struct LoadedScene {
 /// Two pixels a texel: what a region's samples can show, without aliasing worth seeing.
 std::uint32_t raster_size_for(std::uint32_t texels);
 
-/// path "-": stdin. texels: longer side of the texture to come. Diagnostics are appended on success and on error.
+/// path "-": stdin. texels: longer side of the texture to come. threads: 0 for all; never changes the scene.
+/// Diagnostics are appended on success and on error.
 Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels,
-                               std::vector<Diagnostic>& diagnostics);
+                               unsigned threads, std::vector<Diagnostic>& diagnostics);
 
 } // namespace fetexc::cli

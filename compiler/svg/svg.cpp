@@ -45,6 +45,7 @@ fetexc_svg_options to_c(const SvgOptions& o, OptionStrings& strings) {
     c.max_raster_bytes = o.limits.raster_bytes;
     c.max_nesting = o.limits.nesting;
     c.max_milliseconds = o.limits.milliseconds;
+    c.threads = o.threads;
     return c;
 }
 
