@@ -74,8 +74,8 @@ inline constexpr int kFixedParameterBits = 192;
 /// Units of 2^-kFixedBits: rounding errs by half a unit, so a difference beyond this has a certain sign.
 inline constexpr int kFixedCertain = 4;
 
-/// Bits of a parameter from which a coordinate's own isolating interval is taken. Too few can't mislead: an interval that
-/// holds two roots is no answer.
+/// Bits of a parameter from which a coordinate's own isolating interval is taken. Too few can't mislead: an interval
+/// that holds two roots is no answer.
 inline constexpr int kCoordinateBits = 256;
 
 /// Curve parameter: ranges of stretches are outer enclosures, a few roundings wide; what is looked for just beside them

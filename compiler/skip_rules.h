@@ -10,6 +10,7 @@ namespace fetexc {
 struct SkipRules {
     bool layers = true;        ///< layers outside the canvas or hidden under opaque ones leave the scene
     bool outside = true;       ///< curves right of, above or below the canvas take no part
+    bool fans = true;          ///< many lines that end in one point: their pairs are counted, not visited
     bool shared_ends = true;   ///< arcs whose boxes meet in a common end only have no other common point
     bool certificate = true;   ///< pairs that double arithmetic decides need no exact arithmetic
     bool empty_texels = true;  ///< texels without edges are not swept
@@ -23,14 +24,15 @@ struct SkipRule {
     const char* name; ///< for --no-skip
     bool SkipRules::*rule;
 };
-inline constexpr std::array<SkipRule, 9> kSkipRules{{{"layers", &SkipRules::layers},
-                                                     {"outside", &SkipRules::outside},
-                                                     {"shared-ends", &SkipRules::shared_ends},
-                                                     {"certificate", &SkipRules::certificate},
-                                                     {"empty-texels", &SkipRules::empty_texels},
-                                                     {"direct-sweep", &SkipRules::direct_sweep},
-                                                     {"first-sweep", &SkipRules::first_sweep},
-                                                     {"known-results", &SkipRules::known_results},
-                                                     {"hidden-fills", &SkipRules::hidden_fills}}};
+inline constexpr std::array<SkipRule, 10> kSkipRules{{{"layers", &SkipRules::layers},
+                                                      {"outside", &SkipRules::outside},
+                                                      {"fans", &SkipRules::fans},
+                                                      {"shared-ends", &SkipRules::shared_ends},
+                                                      {"certificate", &SkipRules::certificate},
+                                                      {"empty-texels", &SkipRules::empty_texels},
+                                                      {"direct-sweep", &SkipRules::direct_sweep},
+                                                      {"first-sweep", &SkipRules::first_sweep},
+                                                      {"known-results", &SkipRules::known_results},
+                                                      {"hidden-fills", &SkipRules::hidden_fills}}};
 
 } // namespace fetexc

@@ -253,7 +253,7 @@ class Preparer {
         if (bent) {
             for (Interval t : extrema_[curve]) {
                 if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue; // a shared support cut in its extremum
-                const std::uint32_t vertex = vertex_on(curve, t); // narrows t
+                const std::uint32_t vertex = vertex_on(curve, t);   // narrows t
                 const End cut{t, vertex};
                 emit_arc(curve, from, cut, first, sums.size());
                 from = cut;

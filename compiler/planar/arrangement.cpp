@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
+#include <tuple>
 
 #include "compiler/diagnostics.h"
 #include "compiler/geometry/precise.h"
@@ -21,20 +23,29 @@ struct ArcShape {
     ControlPolygon polygon;
 };
 
-/// A common point of two arcs. vertex: an existing one, or kNone for a new one.
+/// A common point of two arcs.
 struct PairContact {
     std::uint32_t a = 0, b = 0;
+    std::uint32_t vertex = 0;
+    std::uint32_t place : 31 = 0; ///< among the contacts of the pair
+    std::uint32_t fresh : 1 = 0;  ///< a crossing: a new vertex
     Contact at;
-    std::uint32_t vertex = kNone;
-    Vertex crossing; ///< the new one
+    [[nodiscard]] auto key() const { return std::tuple(a, b, std::uint32_t{place}); }
 };
 
-/// What one chunk of pairs found; chunks are joined in order.
-struct ChunkResult {
+/// A vertex that couldn't be placed, and the pair it belongs to.
+struct Undecided {
+    IdPair pair;
+    Vertex vertex;
+};
+
+/// What pairs have found. Fresh contacts count crossings; once those are vertices of the set, they name them.
+struct Found {
     std::vector<PairContact> contacts;
+    std::vector<Vertex> crossing_points;
     std::vector<SharedSupport> shared;
     std::uint64_t certified = 0, exact = 0, crossings = 0, exact_comparisons = 0;
-    std::optional<Vertex> undecided; ///< a vertex that couldn't be placed
+    std::optional<Undecided> undecided; ///< the first one in the order of pairs
 };
 
 ArcShape shape_of(const ArcSet& set, const Arc& a) {
@@ -44,14 +55,17 @@ ArcShape shape_of(const ArcSet& set, const Arc& a) {
 
 bool within(const Interval& a, const Interval& b) { return b.lo <= a.lo && a.hi <= b.hi; }
 bool flat(const Interval& v) { return v.lo == v.hi; }
+bool is_line(const ArcSet& set, const Arc& a) { return set.curves[a.curve].degree == 1; }
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, const SkipRules& skip, ChunkResult& out)
+    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, const SkipRules& skip, Found& out)
         : set_(set), shapes_(shapes), skip_(skip), out_(out) {}
 
-    void operator()(std::uint32_t ia, std::uint32_t ib) {
+    void operator()(const IdPair& pair) {
+        const auto [ia, ib] = pair;
         const Arc &a = set_.arcs[ia], &b = set_.arcs[ib];
+        pair_ = pair, place_ = 0;
         known_.clear(), found_.clear();
         if (!collect_known(ia, ib, a, b)) {
             ++out_.certified;
@@ -72,7 +86,7 @@ class PairTest {
     }
 
   private:
-    /// Shared vertices and end points on the other arc. False: the boxes show that there is nothing else.
+    /// Shared vertices and end points on the other arc. False: it is clear that there is nothing else.
     bool collect_known(std::uint32_t ia, std::uint32_t ib, const Arc& a, const Arc& b) {
         const ArcShape &ba = shapes_[ia], &bb = shapes_[ib];
         const Interval ox(std::max(ba.x.lo, bb.x.lo), std::min(ba.x.hi, bb.x.hi));
@@ -80,6 +94,7 @@ class PairTest {
         for (const auto& [va, ta] : {std::pair(a.v0, a.t0), std::pair(a.v1, a.t1)}) {
             for (const auto& [vb, tb] : {std::pair(b.v0, b.t0), std::pair(b.v1, b.t1)}) {
                 if (va != vb) continue;
+                if (is_line(set_, a) && is_line(set_, b)) return false; // collinear ones don't overlap (arcs.h)
                 known_.push_back({ta, tb});
                 const Vertex& v = set_.vertices[va];
                 // Only the shared vertex has that abscissa (ordinate) on an arc that isn't vertical (horizontal).
@@ -106,7 +121,7 @@ class PairTest {
             if (!hit || beyond_an_end(on, vertex, *hit)) continue;
             const Contact c = end_is_a ? Contact{t, *hit} : Contact{*hit, t};
             known_.push_back(c);
-            out_.contacts.push_back({ia, ib, c, v, {}});
+            out_.contacts.push_back({ia, ib, v, place_++, false, c});
         }
     }
 
@@ -118,8 +133,7 @@ class PairTest {
             return;
         }
         std::vector<ExactHit> hits;
-        if (intersect_exact(sa, sb, hits, known_) == ExactOutcome::Undecided && !out_.undecided)
-            out_.undecided = set_.vertices[a.v0];
+        if (intersect_exact(sa, sb, hits, known_) == ExactOutcome::Undecided) report(set_.vertices[a.v0]);
         for (const ExactHit& h : hits)
             add(ia, ib, {h.s, h.t}, &h.narrow); // a known one that is left turns out to be one vertex with it
     }
@@ -142,27 +156,34 @@ class PairTest {
         crossing.a = a.curve, crossing.b = b.curve, crossing.s = c.s, crossing.t = c.t;
         if (narrow != nullptr) crossing.narrow = std::make_shared<const NarrowContact>(*narrow);
         if (beyond_an_end(a, crossing, c.s) || beyond_an_end(b, crossing, c.t)) return;
+        const auto index = static_cast<std::uint32_t>(out_.crossing_points.size());
         ++out_.crossings;
-        out_.contacts.push_back({ia, ib, c, kNone, std::move(crossing)});
+        out_.contacts.push_back({ia, ib, index, place_++, true, c});
+        out_.crossing_points.push_back(std::move(crossing));
     }
 
     /// A contact is enclosed in parameters of the whole curves; the arc may end before it.
     bool beyond_an_end(const Arc& arc, const Vertex& crossing, const Interval& t) {
-        return (t.lo <= arc.t0.hi && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v0], arc.t0, out_) < 0) ||
-               (t.hi >= arc.t1.lo && compare_on_arc(set_, arc, crossing, t, set_.vertices[arc.v1], arc.t1, out_) > 0);
+        return (t.lo <= arc.t0.hi && compare_on_arc(arc, crossing, t, set_.vertices[arc.v0], arc.t0) < 0) ||
+               (t.hi >= arc.t1.lo && compare_on_arc(arc, crossing, t, set_.vertices[arc.v1], arc.t1) > 0);
     }
 
-    static int compare_on_arc(const ArcSet& set, const Arc& arc, const Vertex& p, const Interval& tp, const Vertex& q,
-                              const Interval& tq, ChunkResult& out) {
-        const std::optional<int> c = compare_along(set, arc, p, tp, q, tq, out.exact_comparisons);
-        if (!c && !out.undecided) out.undecided = p;
+    int compare_on_arc(const Arc& arc, const Vertex& p, const Interval& tp, const Vertex& q, const Interval& tq) {
+        const std::optional<int> c = compare_along(set_, arc, p, tp, q, tq, out_.exact_comparisons);
+        if (!c) report(p);
         return c.value_or(0);
+    }
+
+    void report(const Vertex& vertex) {
+        if (!out_.undecided) out_.undecided = {pair_, vertex};
     }
 
     const ArcSet& set_;
     const std::vector<ArcShape>& shapes_;
     const SkipRules& skip_;
-    ChunkResult& out_;
+    Found& out_;
+    IdPair pair_;
+    std::uint32_t place_ = 0;
     std::vector<Contact> known_, found_;
 };
 
@@ -173,37 +194,91 @@ std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<ArcShape>&
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         const ArcShape& b = shapes[i];
         if (b.x.hi < 0 || b.x.lo > right || b.y.hi < 0 || b.y.lo > bottom) continue;
-        items.push_back({b.x.lo, b.y.lo, b.x.hi, b.y.hi, i});
+        items.push_back({b.x.lo, b.y.lo, b.x.hi, b.y.hi, i, kNoFan});
     }
     return items;
 }
 
-ChunkResult test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes,
-                       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, unsigned threads,
-                       const SkipRules& skip) {
-    constexpr std::size_t chunk = 1024;
-    std::vector<ChunkResult> results((pairs.size() + chunk - 1) / chunk);
-    parallel_for(results.size(), threads, [&](std::size_t k) {
-        PairTest test(set, shapes, skip, results[k]);
-        for (std::size_t i = k * chunk; i < std::min(pairs.size(), (k + 1) * chunk); ++i)
-            test(pairs[i].first, pairs[i].second);
-    });
-    ChunkResult all;
-    for (ChunkResult& r : results) {
-        all.contacts.insert(all.contacts.end(), r.contacts.begin(), r.contacts.end());
-        all.shared.insert(all.shared.end(), r.shared.begin(), r.shared.end());
-        all.certified += r.certified, all.exact += r.exact, all.crossings += r.crossings;
-        all.exact_comparisons += r.exact_comparisons, all.undecided = all.undecided ? all.undecided : r.undecided;
+std::uint64_t pairs_among(std::uint64_t n) { return n * (n - 1) / 2; }
+
+/// Lines that end in one point meet nowhere else: collinear ones are cut at each other's ends (arcs.h). Where so many
+/// do that going through all boxes is less work than going through their pairs, they become a fan. Returns the number
+/// of pairs inside fans.
+std::uint64_t group_fans(const ArcSet& set, std::vector<BoxItem>& items) {
+    constexpr std::uint64_t gain = 32; // pairs in the time that a box takes
+    const auto worth = [&](std::uint64_t lines) { return pairs_among(lines) > gain * items.size(); };
+    std::vector<std::uint32_t> lines_at(set.vertices.size(), 0), in_fan(set.vertices.size(), 0);
+    for (const BoxItem& item : items) {
+        const Arc& a = set.arcs[item.id];
+        if (is_line(set, a)) ++lines_at[a.v0], ++lines_at[a.v1];
     }
-    return all;
+    if (std::none_of(lines_at.begin(), lines_at.end(), worth)) return 0;
+    for (BoxItem& item : items) {
+        const Arc& a = set.arcs[item.id];
+        const std::uint32_t hub = lines_at[a.v0] >= lines_at[a.v1] ? a.v0 : a.v1;
+        if (is_line(set, a) && worth(lines_at[hub])) item.fan = hub, ++in_fan[hub];
+    }
+    for (BoxItem& item : items) {
+        if (item.fan != kNoFan && !worth(in_fan[item.fan])) item.fan = kNoFan;
+    }
+    std::uint64_t pairs = 0;
+    for (std::uint64_t lines : in_fan)
+        pairs += worth(lines) ? pairs_among(lines) : 0;
+    return pairs;
 }
 
-/// One vertex for every crossing.
-void add_vertices(ArcSet& set, std::vector<PairContact>& contacts) {
+/// Crossings become vertices of the set.
+void append(ArcSet& set, Found& all, Found& part) {
+    const auto first = static_cast<std::uint32_t>(set.vertices.size());
+    for (PairContact& c : part.contacts) {
+        if (c.fresh) c.vertex += first;
+    }
+    std::move(part.crossing_points.begin(), part.crossing_points.end(), std::back_inserter(set.vertices));
+    all.contacts.insert(all.contacts.end(), part.contacts.begin(), part.contacts.end());
+    all.shared.insert(all.shared.end(), part.shared.begin(), part.shared.end());
+    all.certified += part.certified, all.exact += part.exact, all.crossings += part.crossings;
+    all.exact_comparisons += part.exact_comparisons;
+    if (part.undecided && (!all.undecided || part.undecided->pair < all.undecided->pair))
+        all.undecided = part.undecided;
+}
+
+void test_pairs(ArcSet& set, const std::vector<ArcShape>& shapes, std::span<const IdPair> pairs, unsigned threads,
+                const SkipRules& skip, Found& all) {
+    constexpr std::size_t chunk = 1024;
+    std::vector<Found> parts((pairs.size() + chunk - 1) / chunk);
+    parallel_for(parts.size(), threads, [&](std::size_t k) {
+        PairTest test(set, shapes, skip, parts[k]);
+        for (const IdPair& p : pairs.subspan(k * chunk, std::min(chunk, pairs.size() - k * chunk)))
+            test(p);
+    });
+    for (Found& part : parts)
+        append(set, all, part);
+}
+
+/// Contacts in the order of pairs, whatever order these came in, and the crossings from `first` on in the order of
+/// contacts.
+void sort_contacts(ArcSet& set, std::size_t first, std::vector<PairContact>& contacts) {
+    const auto before = [](const PairContact& a, const PairContact& b) { return a.key() < b.key(); };
+    if (std::is_sorted(contacts.begin(), contacts.end(), before)) return;
+    std::sort(contacts.begin(), contacts.end(), before);
+    std::vector<std::uint32_t> from; // the crossing that belongs to each place
+    from.reserve(set.vertices.size() - first);
     for (PairContact& c : contacts) {
-        if (c.vertex != kNone) continue;
-        c.vertex = static_cast<std::uint32_t>(set.vertices.size());
-        set.vertices.push_back(c.crossing);
+        if (!c.fresh) continue;
+        const auto place = static_cast<std::uint32_t>(first + from.size());
+        from.push_back(c.vertex);
+        c.vertex = place;
+    }
+    for (std::size_t k = 0; k < from.size(); ++k) { // along each cycle of the permutation
+        Vertex vertex = std::move(set.vertices[first + k]);
+        std::size_t to = k;
+        for (std::size_t next = from[to] - first; next != k; next = from[to] - first) {
+            set.vertices[first + to] = std::move(set.vertices[first + next]);
+            from[to] = static_cast<std::uint32_t>(first + to);
+            to = next;
+        }
+        set.vertices[first + to] = std::move(vertex);
+        from[to] = static_cast<std::uint32_t>(first + to);
     }
 }
 
@@ -292,8 +367,14 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         shapes.reserve(out.set.arcs.size());
         for (const Arc& a : out.set.arcs)
             shapes.push_back(shape_of(out.set, a));
-        const auto pairs = overlapping_pairs(canvas_boxes(grid, shapes));
-        ChunkResult found = test_pairs(out.set, shapes, pairs, threads, skip);
+        std::vector<BoxItem> boxes = canvas_boxes(grid, shapes);
+        const std::size_t first_crossing = out.set.vertices.size();
+        Found found;
+        if (skip.fans) found.certified = pass.box_pairs = group_fans(out.set, boxes);
+        visit_overlapping_pairs(std::move(boxes), [&](std::span<const IdPair> pairs) {
+            test_pairs(out.set, shapes, pairs, threads, skip, found);
+            pass.box_pairs += pairs.size();
+        });
         std::sort(found.shared.begin(), found.shared.end());
         found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
         const std::size_t known = shared.size();
@@ -302,12 +383,16 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         }
         if (shared.size() > known) continue;
 
-        add_vertices(out.set, found.contacts);
+        sort_contacts(out.set, first_crossing, found.contacts);
         pass.exact_comparisons = found.exact_comparisons;
-        std::optional<Vertex> undecided = found.undecided;
-        if (out.set.undecided != kNone) undecided = out.set.vertices[out.set.undecided];
-        if (!undecided) undecided = cut_arcs(out, found.contacts, pass);
-        pass.box_pairs = pairs.size(), pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
+        std::optional<Vertex> undecided;
+        if (out.set.undecided != kNone)
+            undecided = out.set.vertices[out.set.undecided];
+        else if (found.undecided)
+            undecided = found.undecided->vertex;
+        else
+            undecided = cut_arcs(out, found.contacts, pass);
+        pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;
         pass.vertices = out.set.vertices.size(), pass.edges = out.edges.size();
         stats = pass;

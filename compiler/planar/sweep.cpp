@@ -135,6 +135,12 @@ void Sweep::collect_outgoing(std::uint32_t k) {
     for (std::uint32_t i = first_out_[k]; i < first_out_[k + 1]; ++i) {
         if (!level_on_cut_[out_edges_[i]]) outgoing_.push_back(out_edges_[i]);
     }
+    constexpr std::size_t few = 16;
+    if (outgoing_.size() > few) {
+        std::stable_sort(outgoing_.begin(), outgoing_.end(),
+                         [&](std::uint32_t e, std::uint32_t f) { return left_of(e, f); });
+        return;
+    }
     for (std::size_t i = 1; i < outgoing_.size(); ++i) {
         for (std::size_t p = i; p > 0 && left_of(outgoing_[p], outgoing_[p - 1]); --p)
             std::swap(outgoing_[p], outgoing_[p - 1]);

@@ -18,7 +18,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-RULES = ("layers", "outside", "shared-ends", "certificate", "empty-texels", "direct-sweep", "first-sweep",
+RULES = ("layers", "outside", "fans", "shared-ends", "certificate", "empty-texels", "direct-sweep", "first-sweep",
          "known-results", "hidden-fills")
 SLOW_RULES = ("certificate",)  # minutes on large drawings
 CHECK_SIZE = 32

@@ -34,15 +34,16 @@ std::vector<SharedSupport> shared_supports(const Scene& scene, const Grid& grid)
     std::vector<BoxItem> items;
     for (std::uint32_t k = 0; k < set.arcs.size(); ++k) {
         const Bounds b = bounds_of(set, set.arcs[k]);
-        if (set.curves[set.arcs[k].curve].degree > 1) items.push_back({b.x.lo, b.y.lo, b.x.hi, b.y.hi, k});
+        if (set.curves[set.arcs[k].curve].degree > 1) items.push_back({b.x.lo, b.y.lo, b.x.hi, b.y.hi, k, kNoFan});
     }
     std::vector<SharedSupport> shared;
-    for (const auto& [i, k] : overlapping_pairs(items)) {
-        const std::uint32_t a = std::min(set.arcs[i].curve, set.arcs[k].curve);
-        const std::uint32_t b = std::max(set.arcs[i].curve, set.arcs[k].curve);
+    const auto test = [&](const IdPair& pair) {
+        const auto [a, b] = std::minmax({set.arcs[pair.first].curve, set.arcs[pair.second].curve});
         SupportMap map;
         if (a != b && same_support(set.curves[a], set.curves[b], map) && overlap(map)) shared.push_back({a, b});
-    }
+    };
+    visit_overlapping_pairs(items,
+                            [&](std::span<const IdPair> pairs) { std::for_each(pairs.begin(), pairs.end(), test); });
     std::sort(shared.begin(), shared.end());
     shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
     return shared;

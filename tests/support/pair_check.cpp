@@ -131,8 +131,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> box_pairs_of(const std::vec
     std::vector<BoxItem> items;
     for (std::uint32_t i = 0; i < pieces.size(); ++i)
         if (pieces[i].x.overlaps(canvas_x) && pieces[i].y.overlaps(canvas_y))
-            items.push_back({pieces[i].x.lo, pieces[i].y.lo, pieces[i].x.hi, pieces[i].y.hi, i});
-    return overlapping_pairs(items);
+            items.push_back({pieces[i].x.lo, pieces[i].y.lo, pieces[i].x.hi, pieces[i].y.hi, i, kNoFan});
+    std::vector<IdPair> all;
+    visit_overlapping_pairs(items,
+                            [&](std::span<const IdPair> pairs) { all.insert(all.end(), pairs.begin(), pairs.end()); });
+    return all;
 }
 
 KernelHits kernel_hits(const Piece& a, const Piece& b) {
