@@ -130,6 +130,8 @@ class PairTest {
         SupportMap map;
         if (same_support(set_.curves[a.curve], set_.curves[b.curve], map)) {
             out_.shared.push_back({std::min(a.curve, b.curve), std::max(a.curve, b.curve)});
+            // Once joined they overlap no more, but where the support crosses itself they still meet.
+            if (const auto p = double_point_between(sa, sb, map.alpha < 0)) add(ia, ib, {p->s, p->t}, &p->narrow);
             return;
         }
         std::vector<ExactHit> hits;

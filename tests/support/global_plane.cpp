@@ -27,27 +27,6 @@ std::optional<FixedPoint> certain_fixed(const ArcSet& set, const Vertex& v) {
     return narrow ? std::optional(fixed_contact(set.curves[v.a], *narrow)) : std::nullopt;
 }
 
-/// Stretches of one support share its double point beside their ends, nothing else. reversed: their parameters run
-/// against each other.
-std::optional<ExactHit> double_point_between(const Stretch& a, const Stretch& b, bool reversed) {
-    const mpq_class far(mpz_class(1) << 128);
-    const auto roots = [&](const Stretch& s) {
-        return isolate_roots(double_point_polynomial(*s.curve), -far, far, 192);
-    };
-    const auto ra = roots(a), rb = roots(b);
-    if (ra.size() != 2 || rb.size() != 2) return {};
-    const auto enclosed = [](const auto& r) {
-        return Interval(widen_down(r.first.get_d()), widen_up(r.second.get_d()));
-    };
-    for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t k = reversed ? i : 1 - i;
-        const ExactHit hit{
-            enclosed(ra[i]), enclosed(rb[k]), {{ra[i].first, ra[i].second}, {rb[k].first, rb[k].second}}};
-        if (hit.s.overlaps(a.range) && hit.t.overlaps(b.range)) return hit;
-    }
-    return {};
-}
-
 } // namespace
 
 GlobalPlane::GlobalPlane(const ArcSet& set) : set_(set) {
