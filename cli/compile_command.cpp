@@ -29,8 +29,23 @@ struct CompileCommandOptions {
     SizeValue size{0, 0, kDefaultTexels};
     SceneOptions scene;
     unsigned threads = 0;
+    std::vector<std::string> no_skip;
     bool quiet = false;
 };
+
+std::vector<std::string> skip_rule_names() {
+    std::vector<std::string> names;
+    for (const SkipRule& r : kSkipRules)
+        names.emplace_back(r.name);
+    return names;
+}
+
+SkipRules skip_rules_without(const std::vector<std::string>& off) {
+    SkipRules rules;
+    for (const SkipRule& r : kSkipRules)
+        rules.*r.rule = std::find(off.begin(), off.end(), r.name) == off.end();
+    return rules;
+}
 
 GridSize grid_of(const SizeValue& size, const Extent& extent) {
     return size.longer != 0 ? grid_for(extent, size.longer) : GridSize{size.width, size.height};
@@ -60,10 +75,13 @@ Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& o
                                   std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
     const std::uint32_t texels = std::max({options.size.longer, options.size.width, options.size.height});
-    auto loaded = load_scene(job.input, options.scene, texels, diagnostics);
+    const SkipRules skip = skip_rules_without(options.no_skip);
+    SceneOptions scene_options = options.scene;
+    scene_options.cull = skip.layers;
+    auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    auto build = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads}, progress.sink());
+    auto build = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads, skip}, progress.sink());
     if (!build) return build.error();
     const std::vector<Diagnostic>& found = build.value().report.diagnostics;
     diagnostics.insert(diagnostics.end(), found.begin(), found.end());
@@ -204,6 +222,10 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
     add_scene_options(*app, options->scene);
+    app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
+        ->take_all()
+        ->check(CLI::IsMember(skip_rule_names()))
+        ->group(""); // hidden
     add_quiet_option(*app, options->quiet);
     return {app, [options] { return run_compile(*options); }};
 }

@@ -24,12 +24,14 @@ std::string hash_of(const std::vector<std::uint8_t>& bytes) {
 std::uint32_t raster_size_for(std::uint32_t texels) { return std::clamp(2 * texels, kMinRaster, kMaxRaster); }
 
 Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels,
-                               std::vector<Diagnostic>& diagnostics) {
+                               unsigned threads, std::vector<Diagnostic>& diagnostics) {
     SvgOptions svg;
     svg.font_files.assign(options.fonts.begin(), options.fonts.end());
     svg.system_fonts = options.system_fonts;
     svg.resources_dir = options.resources;
     svg.raster_pixels = options.raster_size != 0 ? options.raster_size : raster_size_for(texels);
+    svg.cull = options.cull;
+    svg.threads = threads;
     const auto bytes = read_input(path, svg.limits.bytes);
     if (!bytes) return bytes.error();
     auto scene = load_svg(bytes.value(), svg, diagnostics);

@@ -16,6 +16,7 @@ struct SceneOptions {
     bool system_fonts = false;
     std::string resources;         ///< folder from which bitmaps named by the drawing are read; empty: none
     std::uint32_t raster_size = 0; ///< pixels on the longer side for what can't be vector; 0: raster_size_for(texels)
+    bool cull = true;              ///< SkipRules::layers
 };
 
 struct LoadedScene {
@@ -26,8 +27,9 @@ struct LoadedScene {
 /// Two pixels a texel: what a region's samples can show, without aliasing worth seeing.
 std::uint32_t raster_size_for(std::uint32_t texels);
 
-/// path "-": stdin. texels: longer side of the texture to come. Diagnostics are appended on success and on error.
+/// path "-": stdin. texels: longer side of the texture to come. threads: 0 for all; never changes the scene.
+/// Diagnostics are appended on success and on error.
 Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels,
-                               std::vector<Diagnostic>& diagnostics);
+                               unsigned threads, std::vector<Diagnostic>& diagnostics);
 
 } // namespace fetexc::cli

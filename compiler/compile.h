@@ -9,6 +9,7 @@
 
 #include "compiler/result.h"
 #include "compiler/scene/scene.h"
+#include "compiler/skip_rules.h"
 #include "formats/fbt.h"
 
 namespace fetexc {
@@ -24,6 +25,7 @@ GridSize grid_for(const Extent& extent, std::uint32_t longer_side);
 struct CompileOptions {
     GridSize size;
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
+    SkipRules skip = {};  ///< nor do these
 };
 
 /// Called from one thread at a time; fraction in [0,1].

@@ -78,13 +78,12 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
-/// Bits of the parameters of crossings that those coordinates can't tell apart: where two curves touch, a third may
-/// cross both within the square of a small distance.
-/// (Below 2^10, so that scaled doubles stay finite.)
-inline constexpr int kFineParameterBits = 960;
-
 /// Units of 2^-kFixedBits: rounding errs by half a unit, so a difference beyond this has a certain sign.
 inline constexpr int kFixedCertain = 4;
+
+/// Bits of a parameter from which a coordinate's own isolating interval is taken. Too few can't mislead: an interval
+/// that holds two roots is no answer.
+inline constexpr int kCoordinateBits = 256;
 
 /// Curve parameter: ranges of stretches are outer enclosures, a few roundings wide; what is looked for just beside them
 /// is within this.

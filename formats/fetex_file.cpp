@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 
 #include "formats/validate.h"
 
@@ -18,9 +20,13 @@ using Words = std::vector<std::uint32_t>;
 
 std::vector<std::uint8_t> to_bytes(const Words& words) {
     std::vector<std::uint8_t> bytes(words.size() * 4);
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        for (std::size_t i = 0; i < 4; ++i)
-            bytes[4 * k + i] = static_cast<std::uint8_t>(words[k] >> (8 * i));
+    if constexpr (std::endian::native == std::endian::little) {
+        if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
+    } else {
+        for (std::size_t k = 0; k < words.size(); ++k) {
+            for (std::size_t i = 0; i < 4; ++i)
+                bytes[4 * k + i] = static_cast<std::uint8_t>(words[k] >> (8 * i));
+        }
     }
     return bytes;
 }

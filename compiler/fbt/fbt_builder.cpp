@@ -107,8 +107,8 @@ class Builder {
     }
 
     Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow& reach, PlanarStats& stats) {
-        TexelMapper mapper(map_, scene_, compositor_, stats);
-        FeatureBuilder feature_builder(map_, mapper);
+        TexelMapper mapper(map_, scene_, compositor_, stats, options_.skip);
+        FeatureBuilder feature_builder(map_, mapper, options_.skip);
         RowWriter writer(map_, sampler_, out);
         TexelMap texel;
         TexelFeatures features;
@@ -118,7 +118,7 @@ class Builder {
             const std::span<const SubEdge> edges = map_.sub_edges(i, j);
             ++stats.texels;
             ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
-            if (edges.empty()) {
+            if (edges.empty() && options_.skip.empty_texels) {
                 reach.add_empty(corners_.at(i, j));
                 return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
             }
@@ -279,9 +279,9 @@ Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, co
     report.scene = scene.stats;
     if (progress) progress("planar map", 0);
     const Grid grid = make_grid(scene.extent, size.width, size.height);
-    Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, report.planar);
+    Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
     if (!map) return map.error();
-    auto compositor = std::make_unique<Compositor>(scene);
+    auto compositor = std::make_unique<Compositor>(scene, options.skip);
     Result<FbtBuild> build = Builder(scene, options, progress, map.value(), *compositor).run(report, regions);
     if (regions != nullptr) regions->compositor = std::move(compositor);
     return build;

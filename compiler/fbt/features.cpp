@@ -119,7 +119,7 @@ void FeatureBuilder::find_cuts() {
 /// Where every edge is visible and no band line cuts any, the first sweep has said it all.
 bool FeatureBuilder::sweep_again() {
     sweep_ = &texel_->sweep;
-    if (graph_ == &texel_->graph && cuts_.empty()) return true;
+    if (skip_.first_sweep && graph_ == &texel_->graph && cuts_.empty()) return true;
     sweep_ = &own_sweep_;
     return mapper_.sweep().run(texel_->sub_edges, *graph_, cuts_, texel_->frame, own_sweep_);
 }

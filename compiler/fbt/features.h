@@ -61,7 +61,8 @@ struct TexelFeatures {
 /// Builds texel after texel, keeping its scratch memory.
 class FeatureBuilder {
   public:
-    FeatureBuilder(const PlanarMap& map, TexelMapper& mapper) : map_(map), mapper_(mapper) {}
+    FeatureBuilder(const PlanarMap& map, TexelMapper& mapper, const SkipRules& skip = {})
+        : map_(map), mapper_(mapper), skip_(skip) {}
 
     /// Drops edges with the same visible result on both sides, cuts at the junctions of the rest, chains, directs and
     /// orders them. False: the chains don't form a tree of regions (an internal contradiction, reported by the caller).
@@ -100,6 +101,7 @@ class FeatureBuilder {
 
     const PlanarMap& map_;
     TexelMapper& mapper_;
+    SkipRules skip_;
     const TexelMap* texel_ = nullptr;
     TexelFeatures* out_ = nullptr;
     const SweepGraph* graph_ = nullptr;  ///< of the visible sub-edges

@@ -166,6 +166,21 @@ std::optional<ExactHit> double_point(const Curve& c) {
     return ExactHit{to_interval(s), to_interval(t), {s, t}};
 }
 
+std::optional<ExactHit> double_point_between(const Stretch& a, const Stretch& b, bool reversed) {
+    const auto roots = [&](const Stretch& s) {
+        return isolate_roots(double_point_polynomial(*s.curve), 2 * budget::kRefineBits);
+    };
+    const auto ra = roots(a), rb = roots(b);
+    if (ra.size() != 2 || rb.size() != 2) return {};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t k = reversed ? i : 1 - i;
+        const RationalRange s{ra[i].first, ra[i].second}, t{rb[k].first, rb[k].second};
+        const ExactHit hit{to_interval(s), to_interval(t), {s, t}};
+        if (hit.s.overlaps(a.range) && hit.t.overlaps(b.range)) return hit;
+    }
+    return {};
+}
+
 int compare_positions_exact(const Stretch& a, const Stretch& b, Axis level_axis, const mpq_class& level) {
     return compare_at(a, b, level_axis, level);
 }

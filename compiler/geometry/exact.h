@@ -73,6 +73,10 @@ std::optional<DoublePoint> singular_point(const Curve& c);
 /// rational; a cusp or an isolated point gives none).
 std::optional<ExactHit> double_point(const Curve& c);
 
+/// The common point of two stretches of one support beside their ends: its double point, with one branch on each.
+/// reversed: their parameters run against each other (SupportMap::alpha < 0).
+std::optional<ExactHit> double_point_between(const Stretch& a, const Stretch& b, bool reversed);
+
 /// The parameter, within the range or just beside it, at which the curve passes an integer point. None when it doesn't.
 std::optional<Interval> parameter_of_point(const Curve& c, IntPoint p, const Interval& range);
 

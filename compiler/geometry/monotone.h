@@ -9,9 +9,8 @@
 namespace fetexc {
 
 /// Enclosures, ascending and disjoint, of the parameters in (0,1) where x'(t) or y'(t) changes sign. How many there are
-/// is decided exactly (integer discriminants), each enclosure by an exact sign change. Extrema of both axes that can't
-/// be told apart (a cusp) come as one. Two extrema of one axis closer than an ulp (a wiggle below any unit) are left
-/// out.
+/// is decided exactly (integer discriminants), each enclosure by an exact sign change. Extrema of both axes that
+/// doubles can't tell apart (a cusp) come as one.
 std::vector<Interval> extrema(const Curve& c);
 
 } // namespace fetexc

@@ -256,12 +256,10 @@ std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, cons
     return NarrowContact{rational_range(refiner.s()), rational_range(refiner.t())};
 }
 
-std::optional<RationalPoint> rational_contact(const Curve& a, const Curve& b, const Contact& c, int bits) {
-    ContactRefiner refiner(a, b, bits);
-    if (!refiner.run(c)) return {};
-    const RationalRange s = rational_range(refiner.s());
-    const mpq_class mid = (s.lo + s.hi) / 2;
-    return RationalPoint{evaluate(power_basis(a, Axis::X), mid), evaluate(power_basis(a, Axis::Y), mid)};
+mpz_class to_integer(Fixed v) {
+    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
+    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
+    return high + low;
 }
 
 FixedPoint fixed(IntPoint p) { return {to_fixed(p.x), to_fixed(p.y)}; }

@@ -33,14 +33,10 @@ struct FixedPoint {
     Fixed x = 0, y = 0;
 };
 
+mpz_class to_integer(Fixed v);
+
 /// Enclosures of both parameters of a certified contact, about 2^-170 wide. None when it is tangent.
 std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, const Contact& c);
-
-/// The crossing's coordinates to about 2^(64 − bits). None when it is tangent.
-struct RationalPoint {
-    mpq_class x, y;
-};
-std::optional<RationalPoint> rational_contact(const Curve& a, const Curve& b, const Contact& c, int bits);
 
 /// Rounded to the nearest multiple of 2^-kFixedBits, after errors below it. None when the enclosure doesn't tell which
 /// point is meant.

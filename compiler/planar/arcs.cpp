@@ -8,6 +8,7 @@
 
 #include "compiler/geometry/monotone.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/parallel.h"
 #include "compiler/planar/exact_points.h"
 
 namespace fetexc {
@@ -78,7 +79,8 @@ LineKey line_key(const Curve& c) {
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, const Grid& grid, PlanarStats& stats) : scene_(scene), grid_(grid), stats_(stats) {}
+    Preparer(const Scene& scene, const Grid& grid, unsigned threads, const SkipRules& skip, PlanarStats& stats)
+        : scene_(scene), grid_(grid), threads_(threads), skip_(skip), stats_(stats) {}
 
     ArcSet run(std::span<const SharedSupport> shared) {
         collect();
@@ -126,7 +128,7 @@ class Preparer {
             ++stats_.segments_null;
             return;
         }
-        if (irrelevant(use.curve)) return;
+        if (skip_.outside && irrelevant(use.curve)) return;
         canonicalise(use);
         (use.curve.degree == 1 ? lines_ : bent_).push_back(std::move(use));
     }
@@ -215,7 +217,19 @@ class Preparer {
         std::uint32_t vertex;
     };
 
+    void find_extrema(std::size_t first_curve) {
+        constexpr std::size_t chunk = 256;
+        const std::size_t curves = out_.curves.size();
+        extrema_.resize(curves);
+        parallel_for((curves - first_curve + chunk - 1) / chunk, threads_, [&](std::size_t c) {
+            const std::size_t first = first_curve + c * chunk;
+            for (std::size_t k = first; k < std::min(curves, first + chunk); ++k)
+                extrema_[k] = extrema(out_.curves[k]);
+        });
+    }
+
     void emit_all(std::span<const SharedSupport> shared, std::size_t first_curve) {
+        find_extrema(first_curve);
         ends_.reserve(2 * weighted_.size());
         std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
         std::vector<bool> grouped(weighted_.size(), false);
@@ -236,11 +250,10 @@ class Preparer {
     void emit_monotone(std::uint32_t curve, End from, const End& to, const std::vector<Contribution>& sums, bool bent) {
         const std::uint32_t first = static_cast<std::uint32_t>(out_.contributions.size());
         out_.contributions.insert(out_.contributions.end(), sums.begin(), sums.end());
-        const Curve& c = out_.curves[curve];
         if (bent) {
-            for (Interval t : extrema(c)) {
-                if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue;
-                const std::uint32_t vertex = vertex_on(curve, t); // narrows t
+            for (Interval t : extrema_[curve]) {
+                if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue; // a shared support cut in its extremum
+                const std::uint32_t vertex = vertex_on(curve, t);   // narrows t
                 const End cut{t, vertex};
                 emit_arc(curve, from, cut, first, sums.size());
                 from = cut;
@@ -253,9 +266,12 @@ class Preparer {
         const Vertex &va = out_.vertices[a.vertex], &vb = out_.vertices[b.vertex];
         Arc arc;
         arc.curve = curve, arc.t0 = a.t, arc.t1 = b.t, arc.v0 = a.vertex, arc.v1 = b.vertex;
-        arc.x_increasing = compare_coordinates(out_, va, vb, Axis::X) <= 0;
+        const std::optional<int> x = compare_coordinates(out_, va, vb, Axis::X),
+                                 y_order = compare_coordinates(out_, va, vb, Axis::Y);
+        if ((!x || !y_order) && out_.undecided == kNone) out_.undecided = a.vertex;
+        arc.x_increasing = x.value_or(0) <= 0;
         // A level arc counts as falling slightly to the right.
-        const int y = compare_coordinates(out_, va, vb, Axis::Y);
+        const int y = y_order.value_or(0);
         arc.y_increasing = y == 0 ? arc.x_increasing : y < 0;
         arc.first_contribution = first, arc.contributions = static_cast<std::uint32_t>(count);
         out_.arcs.push_back(arc);
@@ -350,9 +366,12 @@ class Preparer {
 
     const Scene& scene_;
     const Grid& grid_;
+    unsigned threads_;
+    const SkipRules& skip_;
     PlanarStats& stats_;
     std::vector<Use> lines_, bent_;
     std::vector<Weighted> weighted_;
+    std::vector<std::vector<Interval>> extrema_; ///< per curve
     ArcSet out_;
     struct PointHash {
         std::size_t operator()(const IntPoint& p) const {
@@ -365,8 +384,9 @@ class Preparer {
 
 } // namespace
 
-ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats) {
-    return Preparer(scene, grid, stats).run(shared);
+ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
+                    unsigned threads, const SkipRules& skip) {
+    return Preparer(scene, grid, threads, skip, stats).run(shared);
 }
 
 } // namespace fetexc

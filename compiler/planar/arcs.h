@@ -52,6 +52,7 @@ struct ArcSet {
     std::vector<Vertex> vertices;
     std::vector<Arc> arcs;
     std::vector<Contribution> contributions;
+    std::uint32_t undecided = kNone; ///< a vertex whose place couldn't be decided
 
     [[nodiscard]] Stretch stretch_of(const Arc& a) const {
         return {&curves[a.curve], {a.t0.lo, a.t1.hi}, a.x_increasing, a.y_increasing};
@@ -64,6 +65,7 @@ struct ArcSet {
 /// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges
 /// identical, reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of
 /// curves found by an earlier pass over the same scene; their common stretches become one arc.
-ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats);
+ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
+                    unsigned threads = 1, const SkipRules& skip = {});
 
 } // namespace fetexc

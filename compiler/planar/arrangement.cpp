@@ -59,8 +59,8 @@ bool is_line(const ArcSet& set, const Arc& a) { return set.curves[a.curve].degre
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, Found& out)
-        : set_(set), shapes_(shapes), out_(out) {}
+    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, const SkipRules& skip, Found& out)
+        : set_(set), shapes_(shapes), skip_(skip), out_(out) {}
 
     void operator()(const IdPair& pair) {
         const auto [ia, ib] = pair;
@@ -72,7 +72,7 @@ class PairTest {
             return;
         }
         const ControlPolygon &pa = shapes_[ia].polygon, &pb = shapes_[ib].polygon;
-        if (intersect_certified(pa, pb, known_, found_) == PairOutcome::Certified) {
+        if (skip_.certificate && intersect_certified(pa, pb, known_, found_) == PairOutcome::Certified) {
             ++out_.certified;
         } else if (a.curve == b.curve) {
             ++out_.exact;
@@ -100,7 +100,7 @@ class PairTest {
                 // Only the shared vertex has that abscissa (ordinate) on an arc that isn't vertical (horizontal).
                 const bool only_x = within(ox, v.x) && !(flat(ba.x) && flat(bb.x));
                 const bool only_y = within(oy, v.y) && !(flat(ba.y) && flat(bb.y));
-                if (only_x || only_y) return false;
+                if (skip_.shared_ends && (only_x || only_y)) return false;
             }
         }
         end_on_other(ia, ib, a, ib, true);
@@ -130,6 +130,8 @@ class PairTest {
         SupportMap map;
         if (same_support(set_.curves[a.curve], set_.curves[b.curve], map)) {
             out_.shared.push_back({std::min(a.curve, b.curve), std::max(a.curve, b.curve)});
+            // Once joined they overlap no more, but where the support crosses itself they still meet.
+            if (const auto p = double_point_between(sa, sb, map.alpha < 0)) add(ia, ib, {p->s, p->t}, &p->narrow);
             return;
         }
         std::vector<ExactHit> hits;
@@ -180,6 +182,7 @@ class PairTest {
 
     const ArcSet& set_;
     const std::vector<ArcShape>& shapes_;
+    const SkipRules& skip_;
     Found& out_;
     IdPair pair_;
     std::uint32_t place_ = 0;
@@ -242,11 +245,11 @@ void append(ArcSet& set, Found& all, Found& part) {
 }
 
 void test_pairs(ArcSet& set, const std::vector<ArcShape>& shapes, std::span<const IdPair> pairs, unsigned threads,
-                Found& all) {
+                const SkipRules& skip, Found& all) {
     constexpr std::size_t chunk = 1024;
     std::vector<Found> parts((pairs.size() + chunk - 1) / chunk);
     parallel_for(parts.size(), threads, [&](std::size_t k) {
-        PairTest test(set, shapes, parts[k]);
+        PairTest test(set, shapes, skip, parts[k]);
         for (const IdPair& p : pairs.subspan(k * chunk, std::min(chunk, pairs.size() - k * chunk)))
             test(p);
     });
@@ -353,14 +356,15 @@ std::optional<Vertex> cut_arcs(Arrangement& out, const std::vector<PairContact>&
 
 } // namespace
 
-Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
+Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                            const SkipRules& skip) {
     std::vector<SharedSupport> shared;
     // A pass that finds partial overlaps starts again with them joined; each pass adds at least one pair, real art
     // needs none or one.
     for (;;) {
         PlanarStats pass = {};
         Arrangement out;
-        out.set = prepare_arcs(scene, grid, shared, pass);
+        out.set = prepare_arcs(scene, grid, shared, pass, threads, skip);
         std::vector<ArcShape> shapes;
         shapes.reserve(out.set.arcs.size());
         for (const Arc& a : out.set.arcs)
@@ -368,9 +372,9 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         std::vector<BoxItem> boxes = canvas_boxes(grid, shapes);
         const std::size_t first_crossing = out.set.vertices.size();
         Found found;
-        found.certified = pass.box_pairs = group_fans(out.set, boxes);
+        if (skip.fans) found.certified = pass.box_pairs = group_fans(out.set, boxes);
         visit_overlapping_pairs(std::move(boxes), [&](std::span<const IdPair> pairs) {
-            test_pairs(out.set, shapes, pairs, threads, found);
+            test_pairs(out.set, shapes, pairs, threads, skip, found);
             pass.box_pairs += pairs.size();
         });
         std::sort(found.shared.begin(), found.shared.end());
@@ -384,7 +388,9 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         sort_contacts(out.set, first_crossing, found.contacts);
         pass.exact_comparisons = found.exact_comparisons;
         std::optional<Vertex> undecided;
-        if (found.undecided)
+        if (out.set.undecided != kNone)
+            undecided = out.set.vertices[out.set.undecided];
+        else if (found.undecided)
             undecided = found.undecided->vertex;
         else
             undecided = cut_arcs(out, found.contacts, pass);

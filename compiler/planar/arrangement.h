@@ -29,6 +29,7 @@ struct Arrangement {
 
 /// Every crossing, tangency, shared end point, overlap and coincidence is decided by a certificate or exactly. Pairs
 /// are spread over `threads`; the result does not depend on it.
-Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats);
+Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                            const SkipRules& skip = {});
 
 } // namespace fetexc

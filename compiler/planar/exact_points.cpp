@@ -83,12 +83,6 @@ std::optional<Ratio> ratio_on_line(const ArcSet& set, const Vertex& v, std::uint
     return positive(from, from - to);
 }
 
-mpz_class to_integer(Fixed v) {
-    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
-    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
-    return high + low;
-}
-
 int compare(const Ratio& a, const Ratio& b) {
     if (a.denominator == b.denominator) return sign_of(a.numerator - b.numerator);
     return cmp(to_integer(a.numerator) * to_integer(b.denominator),
@@ -109,10 +103,33 @@ FixedPoint fixed_point(const ArcSet& set, const Vertex& v) {
     return p ? *p : FixedPoint{fixed_from(v.x.mid()), fixed_from(v.y.mid())};
 }
 
-int compare_coordinates(const ArcSet& set, const Vertex& a, const Vertex& b, Axis axis) {
+int certain_sign(Fixed difference) {
+    return difference > budget::kFixedCertain ? 1 : difference < -budget::kFixedCertain ? -1 : 0;
+}
+
+AlgebraicCoordinate algebraic_coordinate(const ArcSet& set, const Vertex& v, Axis axis) {
+    AlgebraicCoordinate out;
+    out.axis = axis;
+    if (v.integral) {
+        out.level = axis == Axis::X ? v.point.x : v.point.y;
+        return out;
+    }
+    // On the curve along which the coordinate is simpler.
+    const bool on_b =
+        v.b != kNone && power_basis(set.curves[v.b], axis).size() < power_basis(set.curves[v.a], axis).size();
+    out.curve = &set.curves[on_b ? v.b : v.a];
+    out.parameter = parameter_of(set, v, on_b ? v.b : v.a, on_b ? v.t : v.s);
+    return out;
+}
+
+std::optional<int> compare_coordinates(const ArcSet& set, const Vertex& a, const Vertex& b, Axis axis) {
     if (const int c = compare(along(a, axis), along(b, axis)); c != 0) return c;
     if (a.integral && b.integral) return 0;
-    return sign_of(along(fixed_point(set, a), axis) - along(fixed_point(set, b), axis));
+    const std::optional<FixedPoint> p = defined_point(set, a), q = defined_point(set, b);
+    if (p && q) {
+        if (const int c = certain_sign(along(*p, axis) - along(*q, axis)); c != 0) return c;
+    }
+    return compare(algebraic_coordinate(set, a, axis), algebraic_coordinate(set, b, axis));
 }
 
 std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, std::int64_t v) {
@@ -120,8 +137,8 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
     if (const int c = compare(along(a, axis), Interval(level)); c != 0) return c;
     if (along(a, axis).lo == along(a, axis).hi) return 0;
     if (const std::optional<FixedPoint> p = defined_point(set, a)) {
-        const Fixed difference = along(*p, axis) - (static_cast<Fixed>(v) << budget::kFixedBits);
-        if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
+        if (const int c = certain_sign(along(*p, axis) - (static_cast<Fixed>(v) << budget::kFixedBits)); c != 0)
+            return c;
     }
     const AlgebraicNumber t = parameter_of(set, a, a.a, a.s);
     return sign_at(minus(power_basis(set.curves[a.a], axis), to_mpz(v)), t);
@@ -131,8 +148,8 @@ std::optional<int> side_of_level(const Curve& c, Axis axis, std::int64_t level, 
     const Axis across = other(axis);
     if (c.along(across).magnitude == 0) return sign_of(c.along(across).origin - v);
     if (const std::optional<FixedPoint> p = fixed_level(c, axis, level, t)) {
-        const Fixed difference = along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits);
-        if (difference > budget::kFixedCertain || difference < -budget::kFixedCertain) return sign_of(difference);
+        if (const int side = certain_sign(along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits)); side != 0)
+            return side;
     }
     return sign_at(minus(power_basis(c, across), to_mpz(v)),
                    {minus(power_basis(c, axis), to_mpz(level)), mpq_class(t.lo), mpq_class(t.hi)});

@@ -5,6 +5,7 @@
 
 #include "compiler/geometry/polynomial.h"
 #include "compiler/geometry/precise.h"
+#include "compiler/planar/algebraic_coordinate.h"
 #include "compiler/planar/arcs.h"
 
 namespace fetexc {
@@ -14,8 +15,14 @@ Fixed fixed_from(double v);
 /// Coordinates rounded to 2^-kFixedBits (nearest doubles where the definition is degenerate).
 FixedPoint fixed_point(const ArcSet& set, const Vertex& v);
 
-/// Sign of a − b in one coordinate; 0: equal, or nearer than 2^-kFixedBits.
-int compare_coordinates(const ArcSet& set, const Vertex& a, const Vertex& b, Axis axis);
+/// For exact comparisons.
+AlgebraicCoordinate algebraic_coordinate(const ArcSet& set, const Vertex& v, Axis axis);
+
+/// Sign of a − b in one coordinate, exact. None: degenerate beyond what can be decided.
+std::optional<int> compare_coordinates(const ArcSet& set, const Vertex& a, const Vertex& b, Axis axis);
+
+/// Sign of a difference of coordinates rounded to 2^-kFixedBits; 0 when the roundings may have made it.
+int certain_sign(Fixed difference);
 
 /// Sign of the vertex's coordinate minus v, exact. None: degenerate beyond what can be decided.
 std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, std::int64_t v);

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "compiler/planar/exact_points.h"
+
 namespace fetexc {
 namespace {
 
 mpq_class to_rational(Fixed v) {
-    mpz_class high = static_cast<long>(v >> 64), low = static_cast<unsigned long>(v);
-    mpz_mul_2exp(high.get_mpz_t(), high.get_mpz_t(), 64);
-    mpq_class out(high + low);
+    mpq_class out(to_integer(v));
     mpq_div_2exp(out.get_mpq_t(), out.get_mpq_t(), budget::kFixedBits);
     return out;
 }
@@ -32,21 +32,40 @@ int NodeOrder::compare(std::uint32_t a, std::uint32_t b, Axis axis) {
     if (const int c = fetexc::compare(u, v); c != 0) return c;
     if (u.lo == u.hi && v.lo == v.hi) return 0;
     const FixedPoint s = fixed(a), t = fixed(b);
-    if (s.x == t.x && s.y == t.y) return compare_finely(a, b, axis);
-    const Fixed d = axis == Axis::X ? s.x - t.x : s.y - t.y;
-    return d < 0 ? -1 : d > 0 ? 1 : 0;
+    const int c = certain_sign(axis == Axis::X ? s.x - t.x : s.y - t.y);
+    return c != 0 ? c : compare_exactly(a, b, axis);
 }
 
-/// Two crossings that are different points (else they were one node), nearer than 2^-kFixedBits to each other.
-int NodeOrder::compare_finely(std::uint32_t a, std::uint32_t b, Axis axis) {
-    const auto p = map_.rational(a, budget::kFineParameterBits), q = map_.rational(b, budget::kFineParameterBits);
-    if (!p || !q) return 0;
-    fine_[a] = *p, fine_[b] = *q;
-    return axis == Axis::X ? cmp(p->x, q->x) : cmp(p->y, q->y);
+int NodeOrder::compare_exactly(std::uint32_t a, std::uint32_t b, Axis axis) {
+    if (a > b) return -compare_exactly(b, a, axis);
+    const auto [it, fresh] = compared_.try_emplace({a, b, axis}, 0);
+    if (!fresh) return it->second;
+    ++stats_.exact_comparisons;
+    const AlgebraicCoordinate p = map_.algebraic(a, axis), q = map_.algebraic(b, axis);
+    const std::optional<int> c = fetexc::compare(p, q);
+    if (!c) undecided_ = true;
+    if (c && *c != 0) separate(a, b, p, q);
+    return it->second = c.value_or(0);
+}
+
+/// Finer coordinates for two different ones, so that the middle between them lies between the true ones.
+void NodeOrder::separate(std::uint32_t a, std::uint32_t b, const AlgebraicCoordinate& p, const AlgebraicCoordinate& q) {
+    for (int bits = budget::kCoordinateBits; bits <= budget::kRefineBitsLimit; bits *= 2) {
+        const std::optional<RationalRange> u = narrowed(p, bits), v = narrowed(q, bits);
+        if (!u || !v) break;
+        const mpq_class gap = u->lo > v->hi ? mpq_class(u->lo - v->hi) : mpq_class(v->lo - u->hi);
+        if (gap <= (u->hi - u->lo) + (v->hi - v->lo)) continue;
+        for (const auto& [node, range] : {std::pair(a, u), std::pair(b, v)}) {
+            Fine& fine = fine_[{node, p.axis}];
+            if (fine.bits < bits) fine = {bits, (range->lo + range->hi) / 2};
+        }
+        return;
+    }
+    undecided_ = true;
 }
 
 mpq_class NodeOrder::coordinate(std::uint32_t node, Axis axis) {
-    if (const auto it = fine_.find(node); it != fine_.end()) return axis == Axis::X ? it->second.x : it->second.y;
+    if (const auto it = fine_.find({node, axis}); it != fine_.end()) return it->second.value;
     const FixedPoint& p = fixed(node);
     return to_rational(axis == Axis::X ? p.x : p.y);
 }

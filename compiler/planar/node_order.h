@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The nodes of a texel in exact order: by their enclosures, else by coordinates of 72 binary places. After this, the
-/// sweep compares ranks, not coordinates.
+/// The nodes of a texel in exact order: by their enclosures, else by coordinates of 72 binary places, else as
+/// algebraic numbers. After this, the sweep compares ranks, not coordinates.
 #pragma once
 
+#include <map>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct NodeRank {
 
 class NodeOrder {
   public:
-    explicit NodeOrder(const PlanarMap& map) : map_(map) {}
+    NodeOrder(const PlanarMap& map, PlanarStats& stats) : map_(map), stats_(stats) {}
 
     /// Sorts and removes duplicates: down, then right (the order of the sweep).
     void sort(std::vector<std::uint32_t>& nodes);
@@ -26,17 +28,27 @@ class NodeOrder {
     void rank(std::span<const std::uint32_t> nodes, std::vector<NodeRank>& ranks);
     /// Sign of the difference of a coordinate.
     int compare(std::uint32_t a, std::uint32_t b, Axis axis);
+    /// Some comparison found no answer (and gave "equal").
+    [[nodiscard]] bool undecided() const { return undecided_; }
     /// Coordinate of a node, as narrow as comparisons needed it.
     mpq_class coordinate(std::uint32_t node, Axis axis);
 
   private:
     bool before(std::uint32_t a, std::uint32_t b);
     const FixedPoint& fixed(std::uint32_t node);
-    int compare_finely(std::uint32_t a, std::uint32_t b, Axis axis);
+    int compare_exactly(std::uint32_t a, std::uint32_t b, Axis axis);
+    void separate(std::uint32_t a, std::uint32_t b, const AlgebraicCoordinate& p, const AlgebraicCoordinate& q);
 
     const PlanarMap& map_;
+    PlanarStats& stats_;
     std::unordered_map<std::uint32_t, FixedPoint> fixed_; ///< remembered
-    std::unordered_map<std::uint32_t, RationalPoint> fine_;
+    struct Fine {
+        int bits = 0;
+        mpq_class value;
+    };
+    std::map<std::pair<std::uint32_t, Axis>, Fine> fine_; ///< where those don't do
+    std::map<std::tuple<std::uint32_t, std::uint32_t, Axis>, int> compared_;
+    bool undecided_ = false;
     std::vector<std::uint32_t> by_x_;
 };
 

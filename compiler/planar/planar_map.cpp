@@ -317,8 +317,9 @@ class PlanarMap::Builder {
     std::optional<PointEnclosure> undecided_;
 };
 
-Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats) {
-    Result<Arrangement> arrangement = arrange(scene, grid, threads, stats);
+Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                                   const SkipRules& skip) {
+    Result<Arrangement> arrangement = arrange(scene, grid, threads, stats, skip);
     if (!arrangement) return arrangement.error();
     PlanarMap map;
     map.grid_ = grid;
@@ -340,12 +341,19 @@ FixedPoint PlanarMap::fixed(std::uint32_t n) const {
     return p ? *p : FixedPoint{fixed_from(nodes_[n].x), fixed_from(nodes_[n].y)};
 }
 
-std::optional<RationalPoint> PlanarMap::rational(std::uint32_t n, int bits) const {
-    const ArcSet& set = arrangement_.set;
-    if (n >= set.vertices.size()) return {};
-    const Vertex& v = set.vertices[n];
-    if (v.integral || v.a == kNone || v.b == kNone || v.narrow) return {};
-    return rational_contact(set.curves[v.a], set.curves[v.b], {v.s, v.t}, bits);
+AlgebraicCoordinate PlanarMap::algebraic(std::uint32_t n, Axis axis) const {
+    const std::size_t vertices = arrangement_.set.vertices.size();
+    if (n < vertices) return algebraic_coordinate(arrangement_.set, arrangement_.set.vertices[n], axis);
+    const LineCrossing& c = line_crossings_[n - vertices];
+    AlgebraicCoordinate out;
+    out.axis = axis;
+    if (axis == c.axis) {
+        out.level = c.level;
+        return out;
+    }
+    out.curve = &arrangement_.set.curves[arrangement_.set.arcs[arrangement_.edges[c.edge].arc].curve];
+    out.parameter = {minus(power_basis(*out.curve, c.axis), to_mpz(c.level)), mpq_class(c.t.lo), mpq_class(c.t.hi)};
+    return out;
 }
 
 LinePosition PlanarMap::position(std::uint32_t n, Axis across) const {
@@ -360,7 +368,10 @@ bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across
     const Interval &u = across == Axis::X ? p.y_range : p.x_range, &v = across == Axis::X ? q.y_range : q.x_range;
     if (const int c = compare(u, v); c != 0) return c < 0;
     const FixedPoint s = fixed(a.node), t = fixed(b.node);
-    return across == Axis::X ? s.y < t.y : s.x < t.x;
+    const Fixed difference = across == Axis::X ? s.y - t.y : s.x - t.x;
+    if (const int c = certain_sign(difference); c != 0) return c < 0;
+    return compare(algebraic(a.node, other(across)), algebraic(b.node, other(across)))
+               .value_or(difference < 0 ? -1 : 1) < 0;
 }
 
 std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/geometry/precise.h"
+#include "compiler/planar/algebraic_coordinate.h"
 #include "compiler/planar/arrangement.h"
 
 namespace fetexc {
@@ -65,15 +66,16 @@ void add_winding(Windings& w, std::uint32_t shape, std::int32_t change);
 
 class PlanarMap {
   public:
-    static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats);
+    static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
+                                   const SkipRules& skip = {});
 
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
     [[nodiscard]] const GridNode& node(std::uint32_t n) const { return nodes_[n]; }
     /// Coordinates of a node to 2^-kFixedBits: exact arithmetic, microseconds.
     [[nodiscard]] FixedPoint fixed(std::uint32_t n) const;
-    /// The same to 2^(64 − bits), of a crossing of two curves; none for other nodes.
-    [[nodiscard]] std::optional<RationalPoint> rational(std::uint32_t n, int bits) const;
+    /// The same as algebraic numbers, for exact comparisons: up to milliseconds.
+    [[nodiscard]] AlgebraicCoordinate algebraic(std::uint32_t n, Axis axis) const;
     /// Position of a node on a line across the axis (X: a vertical line).
     [[nodiscard]] LinePosition position(std::uint32_t n, Axis across) const;
     /// a comes before b on a line across the axis.

@@ -45,7 +45,9 @@ bool TexelMapper::analyse(std::uint32_t i, std::uint32_t j, const Windings& corn
     out.frame = {2 * static_cast<HalfStep>(i), 2 * static_cast<HalfStep>(j)};
     out.sub_edges = map_.sub_edges(i, j);
     collect(out.sub_edges, out.graph);
-    if (!sweep_.run(out.sub_edges, out.graph, {}, out.frame, out.sweep)) return false;
+    const bool done = skip_.direct_sweep ? sweep_.run(out.sub_edges, out.graph, {}, out.frame, out.sweep)
+                                         : arrangement_.run(out.sub_edges, out.graph, out.frame, out.sweep);
+    if (!done || order_.undecided()) return false;
     stats_.trapezoids += out.sweep.trapezoids.size();
     return assign_results(corner, out);
 }

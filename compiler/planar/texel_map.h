@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/planar/sweep.h"
+#include "compiler/planar/texel_arrangement.h"
 #include "compiler/scene/compositor.h"
 
 namespace fetexc {
@@ -37,8 +38,10 @@ class ResultLookup {
 
 class TexelMapper {
   public:
-    TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats)
-        : map_(map), stats_(stats), order_(map), sweep_(map, order_, stats), lookup_(scene, compositor) {}
+    TexelMapper(const PlanarMap& map, const Scene& scene, Compositor& compositor, PlanarStats& stats,
+                const SkipRules& skip = {})
+        : map_(map), skip_(skip), stats_(stats), order_(map, stats), sweep_(map, order_, stats),
+          arrangement_(map, order_, stats), lookup_(scene, compositor) {}
 
     /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the
     /// caller).
@@ -54,9 +57,11 @@ class TexelMapper {
     bool assign_results(const Windings& corner, TexelMap& out);
 
     const PlanarMap& map_;
+    SkipRules skip_;
     PlanarStats& stats_;
     NodeOrder order_;
     Sweep sweep_;
+    TexelArrangement arrangement_;
     ResultLookup lookup_;
     // scratch
     std::vector<std::pair<std::uint32_t, std::uint32_t>> index_; ///< node → position

@@ -57,7 +57,8 @@ struct TreeIndex {
 /// Builds the reduced stack of one set of inside shapes.
 class StackBuilder {
   public:
-    StackBuilder(const Scene& scene, const TreeIndex& index) : scene_(scene), index_(index), clips_(scene) {}
+    StackBuilder(const Scene& scene, const TreeIndex& index, bool skip_hidden)
+        : scene_(scene), index_(index), skip_hidden_(skip_hidden), clips_(scene) {}
 
     Stack build(std::span<const std::uint32_t> inside) {
         clips_.reset(inside);
@@ -66,7 +67,7 @@ class StackBuilder {
             for (std::uint32_t fill : index_.fills_of_shape[shape])
                 if (passes_clips(fill)) active_.push_back(fill);
         std::sort(active_.begin(), active_.end());
-        return range(topmost_cover(), scene_.root_end);
+        return range(skip_hidden_ ? topmost_cover() : 0, scene_.root_end);
     }
 
   private:
@@ -141,6 +142,7 @@ class StackBuilder {
 
     const Scene& scene_;
     const TreeIndex& index_;
+    bool skip_hidden_;
     ClipEvaluator clips_;
     std::vector<std::uint32_t> active_;
 };
@@ -215,12 +217,12 @@ Rgba unpacked(std::uint64_t c) {
 } // namespace
 
 struct Compositor::Impl {
-    explicit Impl(const Scene& s) : scene(s), index(s) {}
+    Impl(const Scene& s, const SkipRules& rules) : scene(s), skip(rules), index(s) {}
 
     /// A builder has scratch memory per clip: lent to one call at a time.
     std::unique_ptr<StackBuilder> take_builder() {
         const std::lock_guard lock(builders_mutex);
-        if (builders.empty()) return std::make_unique<StackBuilder>(scene, index);
+        if (builders.empty()) return std::make_unique<StackBuilder>(scene, index, skip.hidden_fills);
         std::unique_ptr<StackBuilder> builder = std::move(builders.back());
         builders.pop_back();
         return builder;
@@ -257,6 +259,7 @@ struct Compositor::Impl {
     }
 
     const Scene& scene;
+    SkipRules skip;
     TreeIndex index;
     std::mutex builders_mutex;
     std::vector<std::unique_ptr<StackBuilder>> builders;
@@ -264,12 +267,12 @@ struct Compositor::Impl {
     std::array<Memory, kShards> memory;
 };
 
-Compositor::Compositor(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+Compositor::Compositor(const Scene& scene, const SkipRules& skip) : impl_(std::make_unique<Impl>(scene, skip)) {}
 Compositor::~Compositor() = default;
 
 ResultId Compositor::resolve(std::span<const std::uint32_t> inside) {
     Memory& memory = impl_->memory[InsideHash{}(inside) >> 60];
-    {
+    if (impl_->skip.known_results) {
         const std::lock_guard lock(memory.mutex);
         if (const auto it = memory.results.find(inside); it != memory.results.end()) return it->second;
     }
@@ -278,7 +281,8 @@ ResultId Compositor::resolve(std::span<const std::uint32_t> inside) {
     impl_->give_back(std::move(builder));
     const ResultId result = impl_->intern(std::move(stack));
     const std::lock_guard lock(memory.mutex);
-    if (memory.results.size() < kRememberedSets) memory.results.try_emplace({inside.begin(), inside.end()}, result);
+    if (impl_->skip.known_results && memory.results.size() < kRememberedSets)
+        memory.results.try_emplace({inside.begin(), inside.end()}, result);
     return result;
 }
 

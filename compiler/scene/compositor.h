@@ -8,6 +8,7 @@
 #include <span>
 
 #include "compiler/scene/scene.h"
+#include "compiler/skip_rules.h"
 
 namespace fetexc {
 
@@ -20,7 +21,7 @@ using ResultId = std::uint32_t;
 class Compositor {
   public:
     /// The scene must outlive the compositor.
-    explicit Compositor(const Scene& scene);
+    explicit Compositor(const Scene& scene, const SkipRules& skip = {});
     ~Compositor();
     Compositor(const Compositor&) = delete;
     Compositor& operator=(const Compositor&) = delete;

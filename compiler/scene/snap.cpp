@@ -28,15 +28,16 @@ struct Clipped {
 
 bool same(CanvasPoint a, CanvasPoint b) { return a.x == b.x && a.y == b.y; }
 
-Status check(const CanvasSegment& s, const RawShape& shape, const Scene& scene) {
+Error invalid(const char* message, const RawShape& shape, const Scene& scene) {
     const std::string place = shape.element < scene.elements.size() ? scene.elements[shape.element].name : "shape";
-    if (s.degree < 1 || s.degree > 3)
-        return Error{ErrorClass::InvalidInput, diag::kSceneCoordinateInvalid, "a segment's degree must be 1, 2 or 3",
-                     place};
+    return {ErrorClass::InvalidInput, diag::kSceneCoordinateInvalid, message, place};
+}
+
+Status check(const CanvasSegment& s, const RawShape& shape, const Scene& scene) {
+    if (s.degree < 1 || s.degree > 3) return invalid("a segment's degree must be 1, 2 or 3", shape, scene);
     for (int i = 0; i <= s.degree; ++i)
         if (!std::isfinite(s.p[i].x) || !std::isfinite(s.p[i].y))
-            return Error{ErrorClass::InvalidInput, diag::kSceneCoordinateInvalid, "a coordinate is not a finite number",
-                         place};
+            return invalid("a coordinate is not a finite number", shape, scene);
     return {};
 }
 

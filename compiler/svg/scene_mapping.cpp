@@ -84,8 +84,8 @@ using PaintedParts = std::vector<PaintedPart>;
 
 class Mapper {
   public:
-    Mapper(const fetexc_svg_view& view, std::vector<Diagnostic>& diagnostics)
-        : view_(view), builder_(view.width, view.height), diagnostics_(diagnostics) {}
+    Mapper(const fetexc_svg_view& view, bool cull, std::vector<Diagnostic>& diagnostics)
+        : view_(view), cull_(cull), builder_(view.width, view.height), diagnostics_(diagnostics) {}
 
     Result<Scene> run() {
         for (std::size_t i = 0; i < view_.element_count; ++i)
@@ -98,7 +98,7 @@ class Mapper {
         add_clips();
         add_nodes();
         add_masks();
-        return builder_.finish();
+        return builder_.finish({cull_});
     }
 
   private:
@@ -231,6 +231,7 @@ class Mapper {
     }
 
     const fetexc_svg_view& view_;
+    bool cull_;
     SceneBuilder builder_;
     std::vector<Diagnostic>& diagnostics_;
     std::vector<std::uint32_t> first_; ///< first scene node of each node of the front end
@@ -239,8 +240,8 @@ class Mapper {
 
 } // namespace
 
-Result<Scene> to_scene(const fetexc_svg_view& view, std::vector<Diagnostic>& diagnostics) {
-    return Mapper(view, diagnostics).run();
+Result<Scene> to_scene(const fetexc_svg_view& view, bool cull, std::vector<Diagnostic>& diagnostics) {
+    return Mapper(view, cull, diagnostics).run();
 }
 
 } // namespace fetexc::svg

@@ -11,6 +11,6 @@
 namespace fetexc::svg {
 
 /// The view must be one that fetexc_svg_load() made. Errors: those of SceneBuilder.
-Result<Scene> to_scene(const fetexc_svg_view& view, std::vector<Diagnostic>& diagnostics);
+Result<Scene> to_scene(const fetexc_svg_view& view, bool cull, std::vector<Diagnostic>& diagnostics);
 
 } // namespace fetexc::svg

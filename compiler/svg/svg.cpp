@@ -45,6 +45,7 @@ fetexc_svg_options to_c(const SvgOptions& o, OptionStrings& strings) {
     c.max_raster_bytes = o.limits.raster_bytes;
     c.max_nesting = o.limits.nesting;
     c.max_milliseconds = o.limits.milliseconds;
+    c.threads = o.threads;
     return c;
 }
 
@@ -76,7 +77,7 @@ Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& op
     if (!document) return to_error(error);
     const fetexc_svg_view& view = *fetexc_svg_get(document.get());
     append_findings(view, diagnostics);
-    return svg::to_scene(view, diagnostics);
+    return svg::to_scene(view, options.cull, diagnostics);
 }
 
 } // namespace fetexc

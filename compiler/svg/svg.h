@@ -31,7 +31,9 @@ struct SvgOptions {
     /// Folder from which bitmaps named by the drawing may be read; empty: no file is read.
     std::filesystem::path resources_dir;
     std::uint32_t raster_pixels = 1024; ///< resolution of raster layers: pixels on the larger canvas side, 16 … 16384
+    unsigned threads = 1;               ///< 0: all; never changes the scene
     SvgLimits limits;
+    bool cull = true; ///< SkipRules::layers
 };
 
 /// Everything visible becomes fills of canvas-space paths (strokes outlined, text to outlines), hard gradient edges

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define FETEXC_SVG_ABI 1u
+#define FETEXC_SVG_ABI 2u
 #define FETEXC_SVG_NONE 0xffffffffu
 
 /** x' = a x + c y + e, y' = b x + d y + f */
@@ -136,6 +136,7 @@ typedef struct {
     double stroke_tolerance; /* the same for stroke outlines */
     uint64_t max_bytes, max_elements, max_segments, max_raster_bytes;
     uint32_t max_nesting, max_milliseconds;
+    uint32_t threads, reserved; /* 0: all; never changes what comes out */
 } fetexc_svg_options;
 
 typedef struct {

@@ -167,7 +167,7 @@ void compare_texels(const Scene& scene, GridSize size, const std::string& name) 
     }
     Compositor compositor(scene);
     TexelMapper mapper(map.value(), scene, compositor, stats);
-    NodeOrder order(map.value());
+    NodeOrder order(map.value(), stats);
     TexelArrangement arrangement(map.value(), order, stats);
     TexelMap texel;
     SweepResult cgal;

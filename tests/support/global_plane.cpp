@@ -27,27 +27,6 @@ std::optional<FixedPoint> certain_fixed(const ArcSet& set, const Vertex& v) {
     return narrow ? std::optional(fixed_contact(set.curves[v.a], *narrow)) : std::nullopt;
 }
 
-/// Stretches of one support share its double point beside their ends, nothing else. reversed: their parameters run
-/// against each other.
-std::optional<ExactHit> double_point_between(const Stretch& a, const Stretch& b, bool reversed) {
-    const mpq_class far(mpz_class(1) << 128);
-    const auto roots = [&](const Stretch& s) {
-        return isolate_roots(double_point_polynomial(*s.curve), -far, far, 192);
-    };
-    const auto ra = roots(a), rb = roots(b);
-    if (ra.size() != 2 || rb.size() != 2) return {};
-    const auto enclosed = [](const auto& r) {
-        return Interval(widen_down(r.first.get_d()), widen_up(r.second.get_d()));
-    };
-    for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t k = reversed ? i : 1 - i;
-        const ExactHit hit{
-            enclosed(ra[i]), enclosed(rb[k]), {{ra[i].first, ra[i].second}, {rb[k].first, rb[k].second}}};
-        if (hit.s.overlaps(a.range) && hit.t.overlaps(b.range)) return hit;
-    }
-    return {};
-}
-
 } // namespace
 
 GlobalPlane::GlobalPlane(const ArcSet& set) : set_(set) {
@@ -159,15 +138,7 @@ int GlobalPlane::compare_coordinate_exactly(std::uint32_t a, std::uint32_t b, Ax
         if (d > budget::kFixedCertain || d < -budget::kFixedCertain) return sign_of(d);
     }
     ++counts_.coordinates_exact;
-    const auto level = [&](std::uint32_t k) { return axis == Axis::X ? points_[k].point.x : points_[k].point.y; };
-    std::optional<int> c;
-    if (points_[b].integral)
-        c = side_of_level(set_, points_[a], axis, level(b));
-    else if (points_[a].integral) {
-        c = side_of_level(set_, points_[b], axis, level(a));
-        if (c) c = -*c;
-    } else
-        c = compare_numbers(coordinate(a, axis), coordinate(b, axis));
+    const std::optional<int> c = fetexc::compare(coordinate(a, axis), coordinate(b, axis));
     if (!c) undecided("order of two points", a);
     return *c;
 }
@@ -178,12 +149,10 @@ const std::optional<FixedPoint>& GlobalPlane::fixed_of(std::uint32_t point) {
     return it->second;
 }
 
-const AlgebraicNumber& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
+const AlgebraicCoordinate& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
     const auto [it, fresh] = coordinates_.try_emplace({point, axis});
     if (fresh) {
-        std::optional<AlgebraicNumber> n = coordinate_of(set_, points_[point], axis);
-        if (!n) undecided("coordinate", point);
-        it->second = std::move(*n);
+        it->second = algebraic_coordinate(set_, points_[point], axis);
     }
     return it->second;
 }
@@ -191,9 +160,9 @@ const AlgebraicNumber& GlobalPlane::coordinate(std::uint32_t point, Axis axis) {
 const RationalBox& GlobalPlane::box(std::uint32_t point, int bits) {
     const auto [it, fresh] = boxes_.try_emplace({point, bits});
     if (fresh) {
-        std::optional<RationalBox> b = box_of(set_, points_[point], bits);
-        if (!b) undecided("place", point);
-        it->second = std::move(*b);
+        const auto x = narrowed(coordinate(point, Axis::X), bits), y = narrowed(coordinate(point, Axis::Y), bits);
+        if (!x || !y) undecided("place", point);
+        it->second = {*x, *y};
     }
     return it->second;
 }

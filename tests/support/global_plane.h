@@ -10,8 +10,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "compiler/planar/exact_points.h"
 #include "compiler/planar/plane_arc.h"
-#include "tests/support/algebraic_coordinate.h"
 
 namespace fetexc::test {
 
@@ -19,6 +19,10 @@ namespace fetexc::test {
 struct UndecidedGlobally {
     const char* question;
     double x, y;
+};
+
+struct RationalBox {
+    RationalRange x, y;
 };
 
 class GlobalPlane {
@@ -57,7 +61,7 @@ class GlobalPlane {
     std::optional<int> compare_on_common_piece(std::uint32_t a, std::uint32_t b, Axis axis);
     int compare_coordinate_exactly(std::uint32_t a, std::uint32_t b, Axis axis);
     const std::optional<FixedPoint>& fixed_of(std::uint32_t point);
-    const AlgebraicNumber& coordinate(std::uint32_t point, Axis axis);
+    const AlgebraicCoordinate& coordinate(std::uint32_t point, Axis axis);
     const RationalBox& box(std::uint32_t point, int bits);
 
     int compare_at_exactly(std::uint32_t p, std::uint32_t piece);
@@ -79,7 +83,7 @@ class GlobalPlane {
     std::vector<std::uint32_t> parent_;
     std::deque<std::vector<OnPiece>> lies_on_; ///< per representative
     std::unordered_map<std::uint32_t, std::optional<FixedPoint>> fixed_;
-    std::map<std::pair<std::uint32_t, Axis>, AlgebraicNumber> coordinates_;
+    std::map<std::pair<std::uint32_t, Axis>, AlgebraicCoordinate> coordinates_;
     std::map<std::pair<std::uint32_t, int>, RationalBox> boxes_;
     std::map<std::tuple<std::uint32_t, std::uint32_t, Axis>, int> compared_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<PlanePoint>> common_;

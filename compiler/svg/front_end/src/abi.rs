@@ -3,7 +3,7 @@
 
 use std::ffi::c_char;
 
-pub const ABI: u32 = 1;
+pub const ABI: u32 = 2;
 pub const NONE: u32 = u32::MAX;
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -179,6 +179,8 @@ pub struct Options {
     pub max_raster_bytes: u64,
     pub max_nesting: u32,
     pub max_milliseconds: u32,
+    pub threads: u32,
+    pub reserved: u32,
 }
 
 #[repr(C)]

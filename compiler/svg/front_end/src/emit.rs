@@ -9,10 +9,11 @@ use usvg::{BlendMode, Group, Node};
 use crate::abi;
 use crate::budget::{Budget, Failure};
 use crate::document::Drawing;
-use crate::geom::{fill_contours, map_is_finite, map_stretch, transform_contours, Contour, Path};
-use crate::recover::{magnitude, Origin, Recovery};
+use crate::geom::{fill_contours, map_is_finite, Contour, Path};
+use crate::outline::outline_of;
+use crate::outlines_ahead::{outlines_ahead, Context, OutlinesAhead};
+use crate::recover::{Origin, Recovery};
 use crate::report::{Finding, Report};
-use crate::stroke::{Cap, Join, Stroker, Style};
 
 pub struct Emitter<'a> {
     pub out: Drawing,
@@ -24,6 +25,8 @@ pub struct Emitter<'a> {
     pub budget: &'a mut Budget,
     pub arc_tolerance: f64,
     pub stroke_tolerance: f64,
+    pub threads: usize,
+    ahead: OutlinesAhead,
     /// Pixels per user unit of raster layers.
     pub raster_scale: f64,
     pub raster_bytes_left: u64,
@@ -68,6 +71,8 @@ impl<'a> Emitter<'a> {
             budget,
             arc_tolerance: tolerances.arc,
             stroke_tolerance: tolerances.stroke,
+            threads: 1,
+            ahead: OutlinesAhead::default(),
             raster_scale: 1.0,
             raster_bytes_left: 0,
             clip_cache: HashMap::new(),
@@ -85,6 +90,10 @@ impl<'a> Emitter<'a> {
         };
         let (width, height, frame) = self.recovery.frame(tree.size(), wrapper);
         (self.out.width, self.out.height) = (width, height);
+        if self.threads > 1 {
+            let context = Context { recovery: &self.recovery, tolerance: self.stroke_tolerance, threads: self.threads };
+            self.ahead = outlines_ahead(tree, &frame, &context, self.budget);
+        }
         match tree.root().children() {
             [node @ Node::Group(g)] => self.group_at(node, g, &Affine::IDENTITY, &frame)?,
             children => self.children(children, &Affine::IDENTITY)?,
@@ -272,30 +281,15 @@ impl<'a> Emitter<'a> {
         element: u32,
     ) -> Result<(), Failure> {
         let Some(stroke) = p.stroke() else { return Ok(()) };
-        let style = style_of(stroke, path, origin, self.stroke_tolerance);
-        let contours = if origin.is_some_and(|o| o.non_scaling_stroke) {
-            let in_canvas: Path = path.iter().map(|s| transform_subpath(s, to_root)).collect();
-            self.outline(&in_canvas, &style, &Affine::IDENTITY, element)?
-        } else {
-            self.outline(path, &style, to_root, element)?
+        let outline = match self.ahead.take(p, to_root, self.budget)? {
+            Some(outline) => outline,
+            None => outline_of(stroke, path, origin, to_root, self.stroke_tolerance, self.budget)?,
         };
-        self.painted(&contours, false, stroke.paint(), stroke.opacity().get() as f64, to_root, element)
-    }
-
-    fn outline(&mut self, path: &Path, style: &Style, to_root: &Affine, element: u32) -> Result<Vec<Contour>, Failure> {
-        let stretch = map_stretch(to_root);
-        let finest = 1e-13 * magnitude(path).max(style.width);
-        let tolerance = (self.stroke_tolerance / stretch).max(finest);
-        if !(stretch > 0.0 && tolerance.is_finite() && style.width.is_finite()) {
-            return Ok(Vec::new());
-        }
-        let (mut contours, dashes_dropped) = Stroker::new(style, tolerance).outline(path, self.budget)?;
-        if dashes_dropped {
+        if outline.dashes_dropped {
             let name = self.out.elements[element as usize].clone();
             self.report.add(Finding::DashTooFine, "the dashes are too many to draw; the stroke is solid", name);
         }
-        transform_contours(&mut contours, to_root);
-        Ok(contours)
+        self.painted(&outline.contours, false, stroke.paint(), stroke.opacity().get() as f64, to_root, element)
     }
 
     /// A shape with a paint; `to_root` is the space of the paint.
@@ -329,50 +323,5 @@ impl<'a> Emitter<'a> {
     pub fn push_fill(&mut self, shape: u32, paint: u32, element: u32) {
         let end = self.nodes.len() as u32 + 1;
         self.nodes.push(abi::Node { kind: abi::FILL, end, shape, paint, element, ..EMPTY_GROUP });
-    }
-}
-
-fn transform_subpath(sub: &crate::geom::Subpath, m: &Affine) -> crate::geom::Subpath {
-    crate::geom::Subpath {
-        start: *m * sub.start,
-        segs: sub.segs.iter().map(|s| s.transform(m)).collect(),
-        closed: sub.closed,
-    }
-}
-
-fn style_of(stroke: &usvg::Stroke, path: &Path, origin: Option<&Origin>, tolerance: f64) -> Style {
-    let cap = match stroke.linecap() {
-        usvg::LineCap::Butt => Cap::Butt,
-        usvg::LineCap::Round => Cap::Round,
-        usvg::LineCap::Square => Cap::Square,
-    };
-    let join = match stroke.linejoin() {
-        usvg::LineJoin::Miter => Join::Miter,
-        usvg::LineJoin::MiterClip => Join::MiterClip,
-        usvg::LineJoin::Round => Join::Round,
-        usvg::LineJoin::Bevel => Join::Bevel,
-    };
-    let mut dashes: Vec<f64> = stroke.dasharray().unwrap_or_default().iter().map(|d| *d as f64).collect();
-    let valid = dashes.iter().all(|d| d.is_finite() && *d >= 0.0) && dashes.iter().sum::<f64>() > 0.0;
-    if !valid {
-        dashes.clear();
-    }
-    if dashes.len() % 2 == 1 {
-        dashes.extend_from_within(..);
-    }
-    let mut dash_offset = stroke.dashoffset() as f64;
-    if let Some(author_length) = origin.and_then(|o| o.path_length).filter(|_| !dashes.is_empty()) {
-        // pathLength: dashes are given in the author's units (SVG 2 §9.6.1).
-        let scale = crate::piece::path_length(path, tolerance) / author_length;
-        dashes.iter_mut().for_each(|d| *d *= scale);
-        dash_offset *= scale;
-    }
-    Style {
-        width: stroke.width().get() as f64,
-        miter_limit: stroke.miterlimit().get() as f64,
-        cap,
-        join,
-        dashes,
-        dash_offset,
     }
 }

@@ -12,6 +12,8 @@ use crate::document::Drawing;
 use crate::load::{is_note, Settings};
 use crate::worker::load_guarded;
 
+const MOST_THREADS: u32 = 1024;
+
 /// The arrays, and the view that points into them.
 pub struct Document {
     _drawing: Drawing,
@@ -99,6 +101,14 @@ unsafe fn settings(o: &Options) -> Settings {
         max_raster_bytes: o.max_raster_bytes,
         max_nesting: o.max_nesting.min(1000),
         time: Duration::from_millis(o.max_milliseconds as u64),
+        threads: thread_count(o.threads),
+    }
+}
+
+fn thread_count(wanted: u32) -> usize {
+    match wanted {
+        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n.min(MOST_THREADS) as usize,
     }
 }
 

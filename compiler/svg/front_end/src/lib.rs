@@ -17,6 +17,8 @@ mod ffi;
 pub mod geom;
 pub mod load;
 mod names;
+mod outline;
+mod outlines_ahead;
 mod paint;
 mod piece;
 mod raster;

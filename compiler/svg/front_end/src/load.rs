@@ -35,6 +35,8 @@ pub struct Settings {
     pub max_raster_bytes: u64,
     pub max_nesting: u32,
     pub time: Duration,
+    /// At least 1. Changes nothing but the time.
+    pub threads: usize,
 }
 
 /// Images named by the drawing, as usvg asks for them.
@@ -227,6 +229,7 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     let tolerances = Tolerances { arc: settings.arc_tolerance * side, stroke: settings.stroke_tolerance * side };
     let mut emitter = Emitter::new(recovery, report, &mut budget, tolerances);
     emitter.raster_scale = settings.raster_pixels as f64 / side;
+    emitter.threads = settings.threads;
     emitter.raster_bytes_left = settings.max_raster_bytes;
     emitter.picture(&tree)?;
     finish(emitter)

@@ -2,6 +2,7 @@
 //! Exact geometry for what usvg stores in f32: shapes (with arcs), transforms, the canvas and its viewBox mapping.
 //! Everything is looked up by the f32 value usvg computes, so a wrong guess can't change more than an f32 rounding.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use kurbo::{Affine, Point};
@@ -186,13 +187,22 @@ impl Recovery {
     }
 
     /// The exact path and where it came from. `id` chooses among shapes of equal geometry.
+    pub fn find(&self, path: &tiny_skia_path::Path, id: &str) -> (Cow<'_, Path>, Option<&Origin>) {
+        match self.shapes.get(&fingerprint(path)).and_then(|known| best(known, id)) {
+            Some(known) => (Cow::Borrowed(&known.path), Some(&known.origin)),
+            None => (Cow::Owned(from_usvg(path)), None),
+        }
+    }
+
+    /// The same, counted.
     pub fn path(&mut self, path: &tiny_skia_path::Path, id: &str) -> (Path, Option<Origin>) {
-        let Some(known) = self.shapes.get(&fingerprint(path)) else {
-            self.kept_f32 += 1;
-            return (from_usvg(path), None);
-        };
-        self.recovered += 1;
-        best(known, id).map_or_else(|| (from_usvg(path), None), |k| (k.path.clone(), Some(k.origin.clone())))
+        let (path, origin) = self.find(path, id);
+        let (path, origin) = (path.into_owned(), origin.cloned());
+        match origin {
+            Some(_) => self.recovered += 1,
+            None => self.kept_f32 += 1,
+        }
+        (path, origin)
     }
 
     /// Where it came from, only.

@@ -3,7 +3,7 @@
 //! and in f64 with arcs kept. A usvg path whose points equal a fingerprint takes the exact geometry.
 
 use std::collections::hash_map::DefaultHasher;
-use std::hash::{Hash, Hasher};
+use std::hash::Hasher;
 
 use kurbo::{CubicBez, Point, QuadBez, SvgArc};
 use svgtypes::{PathParser, PathSegment, SimplePathSegment, SimplifyingPathParser};
@@ -90,10 +90,10 @@ pub fn fingerprint(path: &tiny_skia_path::Path) -> u64 {
             PathVerb::Cubic => 3,
             PathVerb::Close => 4,
         };
-        code.hash(&mut hasher);
+        hasher.write_u8(code);
     }
     for p in path.points() {
-        (p.x.to_bits(), p.y.to_bits()).hash(&mut hasher);
+        hasher.write_u64((p.x.to_bits() as u64) << 32 | p.y.to_bits() as u64);
     }
     hasher.finish()
 }
@@ -217,9 +217,21 @@ fn expansion(raw: &PathSegment, cur: Point, after_close: bool) -> (usize, Option
     }
 }
 
-/// The `d` attribute, parsed raw and simplified in step: the simplified stream is what usvg sees, the raw one still
-/// knows the arcs. `budget` is the number of segments left; None when it runs out.
+/// The `d` attribute. `budget` is the number of segments left; None when it runs out.
 pub fn path_data(d: &str, budget: &mut usize) -> Option<Twin> {
+    if d.contains(['a', 'A']) {
+        return data_with_arcs(d, budget);
+    }
+    let mut twin = Twin::default();
+    for segment in SimplifyingPathParser::from(d).map_while(Result::ok) {
+        *budget = budget.checked_sub(1)?;
+        twin.simple(&segment, false);
+    }
+    Some(twin)
+}
+
+/// Parsed raw and simplified in step: the simplified stream is what usvg sees, the raw one still knows the arcs.
+fn data_with_arcs(d: &str, budget: &mut usize) -> Option<Twin> {
     let mut twin = Twin::default();
     let mut simple = SimplifyingPathParser::from(d);
     let (mut cur, mut after_close) = (Point::ZERO, false);
@@ -270,6 +282,29 @@ mod tests {
         assert_eq!(exact("M5 5z").len(), 1);
         assert_eq!(exact("M5 5l0 0").len(), 1);
         assert_eq!(exact("M5 5").len(), 0);
+    }
+
+    #[test]
+    fn data_without_arcs_needs_no_second_parser() {
+        let table = [
+            "M1 2l3 4h5v-6H1V2C1 2 3 4 5 6s1 2 3 4S9 8 7 6Q1 2 3 4t5 6T7 8z",
+            "M1 1L2 2zl3 3zzm1 1l2 2zM5 5zh1",
+            "m1,1 2,2 3,3z 4 4",
+            "M1 1L2 2 L3",
+            "L1 1",
+            "M1 1L2 2zL3 x",
+            "",
+        ];
+        for d in table {
+            let (mut left, mut left_in_step) = (100, 100);
+            let (one, two) = (path_data(d, &mut left).unwrap(), data_with_arcs(d, &mut left_in_step).unwrap());
+            assert_eq!(left, left_in_step, "{d}");
+            assert_eq!(format!("{:?}", one.exact.finish()), format!("{:?}", two.exact.finish()), "{d}");
+            assert_eq!(
+                one.f32_path.finish().as_ref().map(fingerprint),
+                two.f32_path.finish().as_ref().map(fingerprint)
+            );
+        }
     }
 
     #[test]
