@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/precise.h"
 
+#include <array>
+#include <bit>
+#include <cstdlib>
+
 #include "compiler/geometry/dyadic_roots.h"
 
 namespace fetexc {
@@ -149,28 +153,55 @@ class ContactRefiner {
     Dyadic s_, t_;
 };
 
-/// Twice the signed area of (o, a, b).
-mpz_class area(IntPoint o, IntPoint a, IntPoint b) {
-    return to_mpz(a.x - o.x) * to_mpz(b.y - o.y) - to_mpz(a.y - o.y) * to_mpz(b.x - o.x);
+/// Twice the signed area of (o, a, b): below 2^91.
+Fixed area(IntPoint o, IntPoint a, IntPoint b) {
+    return static_cast<Fixed>(a.x - o.x) * (b.y - o.y) - static_cast<Fixed>(a.y - o.y) * (b.x - o.x);
 }
 
 /// Where line b crosses line a.
 mpq_class line_parameter(const Curve& a, const Curve& b) {
-    const mpz_class from = area(b.p[0], b.p[1], a.p[0]), to = area(b.p[0], b.p[1], a.p[1]);
-    mpq_class s(from, from - to);
+    const Fixed from = area(b.p[0], b.p[1], a.p[0]), to = area(b.p[0], b.p[1], a.p[1]);
+    mpq_class s(to_integer(from), to_integer(from - to));
     s.canonicalize();
     return s;
 }
 
+using Unsigned128 = unsigned __int128;
+Unsigned128 magnitude(Fixed v) { return v < 0 ? -static_cast<Unsigned128>(v) : static_cast<Unsigned128>(v); }
+
+/// floor(2^64·part·length/whole); |part| ≤ |whole|.
+Fixed scaled_share(Fixed part, Fixed whole, std::int64_t length) {
+    static_assert(GMP_NUMB_BITS == 64);
+    const auto limbs = [](Unsigned128 v) {
+        return std::array{static_cast<mp_limb_t>(v), static_cast<mp_limb_t>(v >> 64)};
+    };
+    const auto factor = limbs(magnitude(part)), divisor = limbs(magnitude(whole));
+    std::array<mp_limb_t, 4> product{}, quotient{};
+    std::array<mp_limb_t, 2> rest{};
+    product[3] = mpn_mul_1(&product[1], factor.data(), 2, static_cast<mp_limb_t>(std::abs(length)));
+    mpn_tdiv_qr(quotient.data(), rest.data(), 0, product.data(), 4, divisor.data(), divisor[1] != 0 ? 2 : 1);
+    const Fixed share = static_cast<Fixed>(static_cast<Unsigned128>(quotient[1]) << 64 | quotient[0]);
+    const bool negative = (part < 0) != (whole < 0) ? length > 0 : length < 0;
+    const bool exact = rest[0] == 0 && rest[1] == 0;
+    return negative ? -share - (exact ? 0 : 1) : share;
+}
+
+/// v·2^-64.
+Interval enclose_units(Fixed v) {
+    const Unsigned128 m = magnitude(v);
+    const auto high = static_cast<std::uint64_t>(m >> 64), low = static_cast<std::uint64_t>(m);
+    const int bits = high != 0 ? 64 + std::bit_width(high) : std::bit_width(low), dropped = std::max(0, bits - 53);
+    const double d = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(m >> dropped)), dropped - 64);
+    return v < 0 ? Interval(widen_down(-d), widen_up(-d)) : Interval(widen_down(d), widen_up(d));
+}
+
 /// Exact quotients, rounded outwards.
 PointEnclosure line_crossing(const Curve& a, const Curve& b) {
-    const mpz_class from = area(b.p[0], b.p[1], a.p[0]), whole = from - area(b.p[0], b.p[1], a.p[1]);
+    const Fixed from = area(b.p[0], b.p[1], a.p[0]), whole = from - area(b.p[0], b.p[1], a.p[1]);
     const auto at = [&](std::int64_t v0, std::int64_t v1) {
         if (v0 == v1) return Interval(static_cast<double>(v0));
-        mpz_class n = (from * to_mpz(v1 - v0) + to_mpz(v0) * whole) << 64, q;
-        mpz_fdiv_q(q.get_mpz_t(), n.get_mpz_t(), whole.get_mpz_t());
-        const Interval lo = enclose(q, 64), hi = enclose(q + 1, 64);
-        return Interval(lo.lo, hi.hi);
+        const Fixed v = (static_cast<Fixed>(v0) << 64) + scaled_share(from, whole, v1 - v0);
+        return Interval(enclose_units(v).lo, enclose_units(v + 1).hi);
     };
     const PointEnclosure on_a{at(a.p[0].x, a.p[1].x), at(a.p[0].y, a.p[1].y)};
     // A level or upright partner gives its coordinate exactly.
