@@ -43,6 +43,7 @@ std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, 
                                                            const mpq_class& hi, int bits);
 /// The same for all real roots.
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, int bits);
+
 /// A number known exactly: the only root of the polynomial within [lo, hi].
 struct AlgebraicNumber {
     Polynomial polynomial;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Horizontal trapezoid decomposition of one texel by CGAL (DESIGN §5.5): `Arrangement_2` finds the faces, `decompose`
-/// the trapezoids. The same answer as planar/sweep, by other means: its check in tests, and the better way where a
-/// texel holds very many edges.
+/// the trapezoids. The same answer as planar/sweep, by other means and many times slower: its check in tests, and what
+/// SkipRules::direct_sweep switches to.
 #pragma once
 
 #include "compiler/planar/sweep.h"
