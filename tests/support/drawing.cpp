@@ -5,6 +5,7 @@
 #include <bit>
 #include <fstream>
 #include <istream>
+#include <iterator>
 #include <ostream>
 #include <sstream>
 
@@ -18,13 +19,6 @@ Path without_gaps(const Path& path) {
         out.push_back(curve);
     }
     return out.empty() ? out : closed(out);
-}
-
-Segment segment_of(const std::vector<LatticePoint>& curve) {
-    Segment s;
-    s.degree = static_cast<int>(curve.size()) - 1;
-    std::copy(curve.begin(), curve.end(), s.p.begin());
-    return s;
 }
 
 template <class Visit> void each_point(const Drawing& drawing, const Visit& visit) {
@@ -54,23 +48,9 @@ bool read_curve(std::istringstream& in, std::int64_t unit, int degree, Path& pat
 } // namespace
 
 Scene scene_of(const Drawing& drawing) {
-    Scene s;
-    s.extent = {512, 512, kLatticeSteps, kLatticeSteps};
-    for (const Path& drawn : drawing.paths) {
-        const Path path = without_gaps(drawn);
-        const auto k = static_cast<std::uint32_t>(s.shapes.size());
-        s.shapes.push_back({static_cast<std::uint32_t>(s.segments.size()), static_cast<std::uint32_t>(path.size()),
-                            drawing.rule, kNone});
-        for (const auto& curve : path)
-            s.segments.push_back(segment_of(curve));
-        const double v = 0.1 + 0.8 * static_cast<double>(k % 9) / 9;
-        s.paints.emplace_back(SolidPaint{{v, 1 - v, 0.5, 1}});
-        Node node;
-        node.end = k + 1, node.shape = k, node.paint = k;
-        s.nodes.push_back(node);
-    }
-    s.root_end = static_cast<std::uint32_t>(s.nodes.size());
-    return s;
+    std::vector<Path> paths;
+    std::transform(drawing.paths.begin(), drawing.paths.end(), std::back_inserter(paths), without_gaps);
+    return scene_of(paths, drawing.rule, 1);
 }
 
 bool lies_inside(const Drawing& drawing) {
