@@ -85,6 +85,7 @@ Json planar_json(const PlanarStats& p) {
         {"degreeReduced", p.degree_reduced},
         {"pieces", p.pieces},
         {"piecesShared", p.pieces_shared},
+        {"nearCusps", p.near_cusps},
         {"pairs",
          {{"near", p.box_pairs}, {"certified", p.pairs_certified}, {"exact", p.pairs_exact}, {"overlaps", p.overlaps}}},
         {"exactComparisons", p.exact_comparisons},

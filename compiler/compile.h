@@ -34,6 +34,7 @@ using ProgressSink = std::function<void(const char* stage, double fraction)>;
 /// Everything a stage did and avoided (DESIGN §8). Deterministic: no times in here.
 struct PlanarStats {
     std::uint64_t segments = 0, segments_null = 0, degree_reduced = 0, pieces = 0, pieces_shared = 0;
+    std::uint64_t near_cusps = 0; ///< extrema of x and of y merged into one vertex (geometry/monotone.h)
     std::uint64_t box_pairs = 0, pairs_certified = 0, pairs_exact = 0, overlaps = 0;
     std::uint64_t vertices = 0, edges = 0, crossings = 0, grid_crossings = 0;
     std::uint64_t exact_comparisons = 0; ///< order or side decisions that intervals couldn't make

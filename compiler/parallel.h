@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #if defined(__SANITIZE_THREAD__)
-#include <algorithm>
 #include <atomic>
 #include <thread>
-#include <vector>
 #else
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -33,6 +34,24 @@ template <class Body> void parallel_for(std::size_t count, unsigned threads, con
 #else
     tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
     arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
+#endif
+}
+
+/// body(first, end) for stretches of at most `chunk` of the numbers 0 … count − 1.
+template <class Body>
+void parallel_for_chunks(std::size_t count, std::size_t chunk, unsigned threads, const Body& body) {
+    parallel_for((count + chunk - 1) / chunk, threads,
+                 [&](std::size_t k) { body(k * chunk, std::min(count, (k + 1) * chunk)); });
+}
+
+/// `less` is a total order, or what it takes for equal can't be told apart: the sort isn't stable.
+template <class T, class Less> void parallel_sort(std::vector<T>& items, unsigned threads, const Less& less) {
+#if defined(__SANITIZE_THREAD__)
+    std::sort(items.begin(), items.end(), less);
+    static_cast<void>(threads);
+#else
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    arena.execute([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
 #endif
 }
 

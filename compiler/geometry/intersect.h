@@ -19,9 +19,10 @@ bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval
 
 /// A stretch with the control points of just that part of its curve (blossom), made once for many pairs.
 struct ControlPolygon {
+    ControlPolygon() = default;
     ControlPolygon(const Stretch& s);
     Stretch stretch;
-    std::array<double, 4> x, y; ///< relative to the curve's origin; error ≤ 2·kEvaluationError·magnitude
+    std::array<double, 4> x{}, y{}; ///< relative to the curve's origin; error ≤ 2·kEvaluationError·magnitude
 };
 
 enum class PairOutcome { Certified, Undecided };

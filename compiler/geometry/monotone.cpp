@@ -73,6 +73,16 @@ std::vector<double> approximate_roots(const Derivative& q) {
     return {std::min(r1, r2), std::max(r1, r2)};
 }
 
+/// Resultant of both: 0. (With a root in common: where the curve has its cusp.)
+bool have_common_root(const Derivative& p, const Derivative& q) {
+    const auto minor = [](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) { // a·d − b·c
+        return mpz_class(mpz_class(static_cast<long>(a)) * static_cast<long>(d) -
+                         mpz_class(static_cast<long>(b)) * static_cast<long>(c));
+    };
+    const mpz_class ac = minor(p.a, p.c, q.a, q.c);
+    return ac * ac == 4 * minor(p.a, p.b, q.a, q.b) * minor(p.b, p.c, q.b, q.c);
+}
+
 void add_extrema(const Curve& c, Axis axis, std::vector<Interval>& out) {
     const Derivative q = derivative(c, axis);
     std::vector<Interval> found;
@@ -83,7 +93,7 @@ void add_extrema(const Curve& c, Axis axis, std::vector<Interval>& out) {
 
 } // namespace
 
-std::vector<Interval> extrema(const Curve& c) {
+std::vector<Interval> extrema(const Curve& c, std::uint64_t* near_cusps) {
     std::vector<Interval> all;
     if (c.degree < 2) return all;
     add_extrema(c, Axis::X, all);
@@ -91,10 +101,13 @@ std::vector<Interval> extrema(const Curve& c) {
     std::sort(all.begin(), all.end(), [](const Interval& a, const Interval& b) { return a.mid() < b.mid(); });
     std::vector<Interval> out;
     for (const Interval& t : all) {
-        if (!out.empty() && out.back().overlaps(t))
+        if (!out.empty() && out.back().overlaps(t)) {
             out.back() = hull(out.back(), t);
-        else
+            if (near_cusps != nullptr && !have_common_root(derivative(c, Axis::X), derivative(c, Axis::Y)))
+                ++*near_cusps;
+        } else {
             out.push_back(t);
+        }
     }
     return out;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <unordered_map>
 
 #include "compiler/geometry/monotone.h"
@@ -14,273 +13,152 @@
 namespace fetexc {
 namespace {
 
-using Int128 = __int128;
-
-/// A curve with its net contributions, in the curve's direction.
-struct Weighted {
-    Curve curve;
-    std::vector<Contribution> sums;
+/// End of an arc.
+struct End {
+    Interval t;
+    std::uint32_t vertex;
 };
 
-void add(std::vector<Contribution>& sums, std::uint32_t shape, std::int32_t winding) {
-    for (Contribution& c : sums) {
-        if (c.shape == shape) {
-            c.winding += winding;
-            return;
+/// Cuts curves at their extrema. Knows the set's curves and vertices, but adds none to it: its own vertices are
+/// numbered from the number of the set's on, until they are joined.
+class ArcCutter {
+  public:
+    ArcCutter(const ArcSet& set, std::size_t first_bent)
+        : set_(set), first_bent_(first_bent), known_(static_cast<std::uint32_t>(set.vertices.size())) {}
+
+    void cut(std::uint32_t curve, End from, const End& to, ContributionRun run) {
+        if (curve >= first_bent_) {
+            for (Interval t : extrema(set_.curves[curve], &near_cusps_)) {
+                if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue; // a shared support cut in its extremum
+                const std::uint32_t vertex = vertex_on(curve, t);   // narrows t
+                const End end{t, vertex};
+                add_arc(curve, from, end, run);
+                from = end;
+            }
         }
+        add_arc(curve, from, to, run);
     }
-    sums.push_back({shape, winding});
-}
 
-void drop_zero(std::vector<Contribution>& sums) {
-    std::erase_if(sums, [](const Contribution& c) { return c.winding == 0; });
-    std::sort(sums.begin(), sums.end(), [](const Contribution& a, const Contribution& b) { return a.shape < b.shape; });
-}
-
-struct Use {
-    Curve curve;
-    std::uint32_t shape = 0;
-    std::int32_t winding = 1; ///< +1 along the curve as stored, −1 against
-};
-
-Curve reversed(const Curve& c) {
-    std::array<IntPoint, 4> p{};
-    for (int i = 0; i <= c.degree; ++i)
-        p[i] = c.p[c.degree - i];
-    return make_curve(c.degree, p);
-}
-
-/// One direction for each curve: the lexicographically smaller control polygon.
-void canonicalise(Use& use) {
-    const Curve back = reversed(use.curve);
-    if (back.p < use.curve.p) {
-        use.curve = back;
-        use.winding = -use.winding;
+    void join(ArcSet& set, PlanarStats& stats) {
+        const std::uint32_t shift = static_cast<std::uint32_t>(set.vertices.size()) - known_;
+        const auto renumbered = [&](std::uint32_t v) { return v < known_ ? v : v + shift; };
+        set.vertices.insert(set.vertices.end(), vertices_.begin(), vertices_.end());
+        for (Arc& arc : arcs_) {
+            arc.v0 = renumbered(arc.v0), arc.v1 = renumbered(arc.v1);
+            set.arcs.push_back(arc);
+        }
+        if (undecided_ != kNone && set.undecided == kNone) set.undecided = renumbered(undecided_);
+        stats.near_cusps += near_cusps_;
     }
-}
 
-bool same_polygon(const Curve& a, const Curve& b) { return a.degree == b.degree && a.p == b.p; }
+  private:
+    [[nodiscard]] const Vertex& vertex(std::uint32_t v) const {
+        return v < known_ ? set_.vertices[v] : vertices_[v - known_];
+    }
 
-/// Direction (reduced) and offset: equal exactly for segments on one line.
-struct LineKey {
-    std::int64_t dx = 0, dy = 0;
-    Int128 offset = 0;
-    [[nodiscard]] auto tie() const { return std::tie(dx, dy, offset); }
-    bool operator==(const LineKey& o) const { return tie() == o.tie(); }
-    bool operator<(const LineKey& o) const { return tie() < o.tie(); }
+    std::uint32_t vertex_on(std::uint32_t curve, Interval& t) {
+        const PointEnclosure p = extremum_point(set_.curves[curve], t);
+        Vertex v;
+        v.x = p.x, v.y = p.y, v.a = curve, v.s = t;
+        vertices_.push_back(v);
+        return known_ + static_cast<std::uint32_t>(vertices_.size() - 1);
+    }
+
+    void add_arc(std::uint32_t curve, const End& a, const End& b, ContributionRun run) {
+        const Vertex &va = vertex(a.vertex), &vb = vertex(b.vertex);
+        Arc arc;
+        arc.curve = curve, arc.t0 = a.t, arc.t1 = b.t, arc.v0 = a.vertex, arc.v1 = b.vertex;
+        const std::optional<int> x = compare_coordinates(set_, va, vb, Axis::X),
+                                 y_order = compare_coordinates(set_, va, vb, Axis::Y);
+        if ((!x || !y_order) && undecided_ == kNone) undecided_ = a.vertex;
+        arc.x_increasing = x.value_or(0) <= 0;
+        // A level arc counts as falling slightly to the right.
+        const int y = y_order.value_or(0);
+        arc.y_increasing = y == 0 ? arc.x_increasing : y < 0;
+        arc.first_contribution = run.first, arc.contributions = run.count;
+        arcs_.push_back(arc);
+    }
+
+    const ArcSet& set_;
+    std::size_t first_bent_;
+    std::uint32_t known_;
+    std::vector<Vertex> vertices_;
+    std::vector<Arc> arcs_;
+    std::uint32_t undecided_ = kNone;
+    std::uint64_t near_cusps_ = 0;
 };
-
-LineKey line_key(const Curve& c) {
-    const std::int64_t dx = c.p[1].x - c.p[0].x, dy = c.p[1].y - c.p[0].y, g = std::gcd(dx, dy);
-    LineKey k{dx / g, dy / g, 0};
-    k.offset = static_cast<Int128>(k.dx) * c.p[0].y - static_cast<Int128>(k.dy) * c.p[0].x;
-    return k;
-}
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, const Grid& grid, unsigned threads, const SkipRules& skip, PlanarStats& stats)
-        : scene_(scene), grid_(grid), threads_(threads), skip_(skip), stats_(stats) {}
+    Preparer(MergedCurves merged, unsigned threads, PlanarStats& stats)
+        : first_bent_(merged.first_bent), runs_(std::move(merged.runs)), threads_(threads), stats_(stats) {
+        out_.curves = std::move(merged.curves);
+        out_.contributions = std::move(merged.contributions);
+    }
 
     ArcSet run(std::span<const SharedSupport> shared) {
-        collect();
-        merge_lines();
-        const std::size_t first_curve = weighted_.size();
-        merge_curves();
-        out_.curves.reserve(weighted_.size());
-        for (const Weighted& w : weighted_)
-            out_.curves.push_back(w.curve);
-        emit_all(shared, first_curve);
+        add_ends();
+        const std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
+        std::vector<bool> grouped(out_.curves.size(), false);
+        for (const auto& [root, members] : groups) {
+            for (std::uint32_t m : members)
+                grouped[m] = true;
+        }
+        cut_curves(grouped);
+        for (const auto& [root, members] : groups)
+            emit_support(root, members);
         stats_.pieces = out_.arcs.size();
         stats_.vertices = out_.vertices.size();
         return std::move(out_);
     }
 
   private:
-    [[nodiscard]] IntPoint planar(LatticePoint p) const { return {p.x * grid_.kx, p.y * grid_.ky}; }
-
-    /// Right of, above or below the canvas: no winding number on the canvas changes there.
-    [[nodiscard]] bool irrelevant(const Curve& c) const {
-        std::int64_t x0 = c.p[0].x, y0 = c.p[0].y, y1 = y0;
-        for (int i = 1; i <= c.degree; ++i) {
-            x0 = std::min(x0, c.p[i].x);
-            y0 = std::min(y0, c.p[i].y), y1 = std::max(y1, c.p[i].y);
-        }
-        return x0 > grid_.right() || y0 > grid_.bottom() || y1 < 0;
-    }
-
-    void collect() {
-        for (std::uint32_t shape = 0; shape < scene_.shapes.size(); ++shape) {
-            const Shape& s = scene_.shapes[shape];
-            for (std::uint32_t k = s.first; k < s.first + s.count; ++k)
-                collect_segment(scene_.segments[k], shape);
-        }
-    }
-
-    void collect_segment(const Segment& segment, std::uint32_t shape) {
-        ++stats_.segments;
-        std::array<IntPoint, 4> p{};
-        for (int i = 0; i <= segment.degree; ++i)
-            p[i] = planar(segment.p[i]);
-        Use use{make_curve(segment.degree, p), shape, 1};
-        if (use.curve.degree < segment.degree) ++stats_.degree_reduced;
-        if (use.curve.degree == 1 && use.curve.first() == use.curve.last()) {
-            ++stats_.segments_null;
-            return;
-        }
-        if (skip_.outside && irrelevant(use.curve)) return;
-        canonicalise(use);
-        (use.curve.degree == 1 ? lines_ : bent_).push_back(std::move(use));
-    }
-
-    /// Collinear segments, cut at each other's ends; what runs back and forth cancels.
-    void merge_lines() {
-        std::vector<std::pair<LineKey, std::uint32_t>> order;
-        order.reserve(lines_.size());
-        for (std::uint32_t k = 0; k < lines_.size(); ++k)
-            order.emplace_back(line_key(lines_[k].curve), k);
-        std::sort(order.begin(), order.end());
-        for (std::size_t i = 0; i < order.size();) {
-            std::size_t end = i + 1;
-            while (end < order.size() && order[end].first == order[i].first)
-                ++end;
-            merge_collinear({order.data() + i, end - i});
-            i = end;
-        }
-    }
-
-    void merge_collinear(std::span<const std::pair<LineKey, std::uint32_t>> group) {
-        struct Event {
-            IntPoint at;
-            std::uint32_t shape;
-            std::int32_t winding;
+    void add_ends() {
+        struct PointHash {
+            std::size_t operator()(const IntPoint& p) const {
+                return static_cast<std::size_t>(p.x) * 0x9E3779B97F4A7C15ull ^
+                       (static_cast<std::size_t>(p.y) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
+            }
         };
-        std::vector<Event> events;
-        for (const auto& [key, k] : group) {
-            const Use& u = lines_[k]; // canonical: first() < last()
-            events.push_back({u.curve.first(), u.shape, u.winding});
-            events.push_back({u.curve.last(), u.shape, -u.winding});
-        }
-        std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
-        std::vector<Contribution> active;
-        for (std::size_t i = 0; i < events.size();) {
-            const IntPoint at = events[i].at;
-            for (; i < events.size() && events[i].at == at; ++i)
-                add(active, events[i].shape, events[i].winding);
-            drop_zero(active);
-            if (i == events.size() || active.empty()) continue;
-            weighted_.push_back({make_curve(1, {at, events[i].at, IntPoint{}, IntPoint{}}), active});
-        }
-        if (group.size() > 1) stats_.pieces_shared += group.size() - 1;
-    }
-
-    void merge_curves() {
-        std::sort(bent_.begin(), bent_.end(), [](const Use& a, const Use& b) {
-            return std::tie(a.curve.degree, a.curve.p, a.shape, a.winding) <
-                   std::tie(b.curve.degree, b.curve.p, b.shape, b.winding);
-        });
-        for (std::size_t i = 0; i < bent_.size();) {
-            Weighted w{bent_[i].curve, {}};
-            const std::size_t begin = i;
-            for (; i < bent_.size() && same_polygon(bent_[i].curve, w.curve); ++i)
-                add(w.sums, bent_[i].shape, bent_[i].winding);
-            stats_.pieces_shared += i - begin - 1;
-            drop_zero(w.sums);
-            if (!w.sums.empty()) weighted_.push_back(std::move(w));
+        std::unordered_map<IntPoint, std::uint32_t, PointHash> known;
+        known.reserve(2 * out_.curves.size());
+        const auto vertex_at = [&](IntPoint p) {
+            const auto [it, fresh] = known.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
+            if (fresh) {
+                Vertex v;
+                v.x = static_cast<double>(p.x), v.y = static_cast<double>(p.y);
+                v.integral = true, v.point = p;
+                out_.vertices.push_back(v);
+            }
+            return it->second;
+        };
+        ends_.reserve(out_.curves.size());
+        for (const Curve& c : out_.curves) {
+            const std::uint32_t first = vertex_at(c.first());
+            ends_.emplace_back(first, vertex_at(c.last()));
         }
     }
 
-    // --- emission
-    // ------------------------------------------------------------------------------------------------------------
-
-    std::uint32_t vertex_at(IntPoint p) {
-        const auto [it, fresh] = ends_.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
-        if (fresh) {
-            Vertex v;
-            v.x = static_cast<double>(p.x), v.y = static_cast<double>(p.y);
-            v.integral = true, v.point = p;
-            out_.vertices.push_back(v);
-        }
-        return it->second;
-    }
-
-    std::uint32_t vertex_on(std::uint32_t curve, Interval& t) {
-        const PointEnclosure p = extremum_point(out_.curves[curve], t);
-        Vertex v;
-        v.x = p.x, v.y = p.y, v.a = curve, v.s = t;
-        out_.vertices.push_back(v);
-        return static_cast<std::uint32_t>(out_.vertices.size() - 1);
-    }
-
-    struct End {
-        Interval t;
-        std::uint32_t vertex;
-    };
-
-    void find_extrema(std::size_t first_curve) {
+    void cut_curves(const std::vector<bool>& grouped) {
         constexpr std::size_t chunk = 256;
         const std::size_t curves = out_.curves.size();
-        extrema_.resize(curves);
-        parallel_for((curves - first_curve + chunk - 1) / chunk, threads_, [&](std::size_t c) {
-            const std::size_t first = first_curve + c * chunk;
-            for (std::size_t k = first; k < std::min(curves, first + chunk); ++k)
-                extrema_[k] = extrema(out_.curves[k]);
-        });
-    }
-
-    void emit_all(std::span<const SharedSupport> shared, std::size_t first_curve) {
-        find_extrema(first_curve);
-        ends_.reserve(2 * weighted_.size());
-        std::map<std::uint32_t, std::vector<std::uint32_t>> groups = support_groups(shared);
-        std::vector<bool> grouped(weighted_.size(), false);
-        for (const auto& [root, members] : groups) {
-            for (std::uint32_t m : members)
-                grouped[m] = true;
-        }
-        for (std::uint32_t k = 0; k < weighted_.size(); ++k) {
-            if (grouped[k]) continue;
-            const Curve& c = out_.curves[k];
-            const End a{Interval(0), vertex_at(c.first())}, b{Interval(1), vertex_at(c.last())};
-            emit_monotone(k, a, b, weighted_[k].sums, k >= first_curve);
-        }
-        for (const auto& [root, members] : groups)
-            emit_support(root, members);
-    }
-
-    void emit_monotone(std::uint32_t curve, End from, const End& to, const std::vector<Contribution>& sums, bool bent) {
-        const std::uint32_t first = static_cast<std::uint32_t>(out_.contributions.size());
-        out_.contributions.insert(out_.contributions.end(), sums.begin(), sums.end());
-        if (bent) {
-            for (Interval t : extrema_[curve]) {
-                if (t.lo <= from.t.hi || t.hi >= to.t.lo) continue; // a shared support cut in its extremum
-                const std::uint32_t vertex = vertex_on(curve, t);   // narrows t
-                const End cut{t, vertex};
-                emit_arc(curve, from, cut, first, sums.size());
-                from = cut;
+        std::vector<ArcCutter> cutters((curves + chunk - 1) / chunk, ArcCutter(out_, first_bent_));
+        parallel_for_chunks(curves, chunk, threads_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k) {
+                const auto [v0, v1] = ends_[k];
+                if (!grouped[k])
+                    cutters[first / chunk].cut(static_cast<std::uint32_t>(k), {Interval(0), v0}, {Interval(1), v1},
+                                               runs_[k]);
             }
-        }
-        emit_arc(curve, from, to, first, sums.size());
-    }
-
-    void emit_arc(std::uint32_t curve, const End& a, const End& b, std::uint32_t first, std::size_t count) {
-        const Vertex &va = out_.vertices[a.vertex], &vb = out_.vertices[b.vertex];
-        Arc arc;
-        arc.curve = curve, arc.t0 = a.t, arc.t1 = b.t, arc.v0 = a.vertex, arc.v1 = b.vertex;
-        const std::optional<int> x = compare_coordinates(out_, va, vb, Axis::X),
-                                 y_order = compare_coordinates(out_, va, vb, Axis::Y);
-        if ((!x || !y_order) && out_.undecided == kNone) out_.undecided = a.vertex;
-        arc.x_increasing = x.value_or(0) <= 0;
-        // A level arc counts as falling slightly to the right.
-        const int y = y_order.value_or(0);
-        arc.y_increasing = y == 0 ? arc.x_increasing : y < 0;
-        arc.first_contribution = first, arc.contributions = static_cast<std::uint32_t>(count);
-        out_.arcs.push_back(arc);
+        });
+        for (ArcCutter& c : cutters)
+            c.join(out_, stats_);
     }
 
     // --- curves that share their algebraic curve
     // ---------------------------------------------------------------------------------
 
-    std::map<std::uint32_t, std::vector<std::uint32_t>> support_groups(std::span<const SharedSupport> shared) {
+    static std::map<std::uint32_t, std::vector<std::uint32_t>> support_groups(std::span<const SharedSupport> shared) {
         std::map<std::uint32_t, std::uint32_t> parent;
         const auto find = [&](std::uint32_t k) {
             while (parent.contains(k) && parent[k] != k)
@@ -320,8 +198,8 @@ class Preparer {
         for (std::uint32_t k : curves) {
             Member m{k, {1, 0, Interval(0), Interval(1)}, {}, {}};
             if (k != root && !same_support(out_.curves[k], out_.curves[root], m.map)) continue;
-            m.lo = {m.map.start, vertex_at(out_.curves[k].first())};
-            m.hi = {m.map.end, vertex_at(out_.curves[k].last())};
+            m.lo = {m.map.start, ends_[k].first};
+            m.hi = {m.map.end, ends_[k].second};
             if (m.map.alpha < 0) std::swap(m.lo, m.hi);
             cuts.push_back(m.lo), cuts.push_back(m.hi);
             members.push_back(m);
@@ -342,16 +220,22 @@ class Preparer {
         for (const Member& m : members) {
             if (m.lo.t.mid() > from.t.mid() || m.hi.t.mid() < to.t.mid()) continue;
             if (carrier == nullptr) carrier = &m;
-            for (const Contribution& c : weighted_[m.curve].sums) {
-                add(sums, c.shape, (m.map.alpha < 0) == (carrier->map.alpha < 0) ? c.winding : -c.winding);
-            }
+            const int sign = (m.map.alpha < 0) == (carrier->map.alpha < 0) ? 1 : -1;
+            const ContributionRun run = runs_[m.curve];
+            for (std::uint32_t k = run.first; k < run.first + run.count; ++k)
+                add_contribution(sums, out_.contributions[k].shape, sign * out_.contributions[k].winding);
         }
-        drop_zero(sums);
+        normalise(sums);
         if (carrier == nullptr || sums.empty()) return;
         End a = on_carrier(*carrier, from), b = on_carrier(*carrier, to);
         if (carrier->map.alpha < 0) std::swap(a, b);
         ++stats_.pieces_shared;
-        emit_monotone(carrier->curve, a, b, sums, true);
+        const ContributionRun run{static_cast<std::uint32_t>(out_.contributions.size()),
+                                  static_cast<std::uint32_t>(sums.size())};
+        out_.contributions.insert(out_.contributions.end(), sums.begin(), sums.end());
+        ArcCutter cutter(out_, first_bent_);
+        cutter.cut(carrier->curve, a, b, run);
+        cutter.join(out_, stats_);
     }
 
     /// Parameter of a cut on the carrier: inverse of its map, exact 0 and 1 at its own ends.
@@ -364,29 +248,19 @@ class Preparer {
         return {{std::max(0.0, t.lo), std::min(1.0, t.hi)}, cut.vertex};
     }
 
-    const Scene& scene_;
-    const Grid& grid_;
+    std::size_t first_bent_;
+    std::vector<ContributionRun> runs_; ///< per curve
     unsigned threads_;
-    const SkipRules& skip_;
     PlanarStats& stats_;
-    std::vector<Use> lines_, bent_;
-    std::vector<Weighted> weighted_;
-    std::vector<std::vector<Interval>> extrema_; ///< per curve
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_; ///< vertices at the ends of each curve
     ArcSet out_;
-    struct PointHash {
-        std::size_t operator()(const IntPoint& p) const {
-            return static_cast<std::size_t>(p.x) * 0x9E3779B97F4A7C15ull ^
-                   (static_cast<std::size_t>(p.y) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
-        }
-    };
-    std::unordered_map<IntPoint, std::uint32_t, PointHash> ends_;
 };
 
 } // namespace
 
 ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
                     unsigned threads, const SkipRules& skip) {
-    return Preparer(scene, grid, threads, skip, stats).run(shared);
+    return Preparer(merge_curves(scene, grid, stats, threads, skip), threads, stats).run(shared);
 }
 
 } // namespace fetexc

@@ -11,15 +11,10 @@
 #include "compiler/compile.h"
 #include "compiler/geometry/exact.h"
 #include "compiler/planar/grid.h"
+#include "compiler/planar/merged_curves.h"
 #include "compiler/scene/scene.h"
 
 namespace fetexc {
-
-/// Following the arc with growing t, the shape's contour runs `winding` times along (negative: against).
-struct Contribution {
-    std::uint32_t shape = 0;
-    std::int32_t winding = 0;
-};
 
 /// A point of the planar map, in planar space. Integral points are exact; others are enclosed, and defined by what
 /// meets there, so that any question about them can be answered exactly (planar/exact_points.h).
@@ -62,9 +57,8 @@ struct ArcSet {
     }
 };
 
-/// Drops null segments and everything that can't matter (right of, above, below the canvas), reduces degrees, merges
-/// identical, reversed and collinear overlapping stretches (exact), splits at extrema. `shared`: partial overlaps of
-/// curves found by an earlier pass over the same scene; their common stretches become one arc.
+/// The scene's merged curves (planar/merged_curves.h) cut at their extrema. `shared`: partial overlaps of curves found
+/// by an earlier pass over the same scene; their common stretches become one arc.
 ArcSet prepare_arcs(const Scene& scene, const Grid& grid, std::span<const SharedSupport> shared, PlanarStats& stats,
                     unsigned threads = 1, const SkipRules& skip = {});
 

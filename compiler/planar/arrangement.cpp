@@ -39,18 +39,27 @@ struct Undecided {
     Vertex vertex;
 };
 
-/// What pairs have found. Fresh contacts count crossings; once those are vertices of the set, they name them.
+/// What pairs have found. Fresh contacts count crossings; once those are vertices of the set, they name them (settle).
 struct Found {
     std::vector<PairContact> contacts;
     std::vector<Vertex> crossing_points;
     std::vector<SharedSupport> shared;
-    std::uint64_t certified = 0, exact = 0, crossings = 0, exact_comparisons = 0;
+    std::uint64_t box_pairs = 0, certified = 0, exact = 0, crossings = 0, exact_comparisons = 0;
     std::optional<Undecided> undecided; ///< the first one in the order of pairs
 };
 
 ArcShape shape_of(const ArcSet& set, const Arc& a) {
     const Vertex &p = set.vertices[a.v0], &q = set.vertices[a.v1];
     return {hull(p.x, q.x), hull(p.y, q.y), set.stretch_of(a)};
+}
+
+std::vector<ArcShape> shapes_of(const ArcSet& set, unsigned threads) {
+    std::vector<ArcShape> shapes(set.arcs.size());
+    parallel_for_chunks(shapes.size(), 512, threads, [&](std::size_t first, std::size_t end) {
+        for (std::size_t k = first; k < end; ++k)
+            shapes[k] = shape_of(set, set.arcs[k]);
+    });
+    return shapes;
 }
 
 bool within(const Interval& a, const Interval& b) { return b.lo <= a.lo && a.hi <= b.hi; }
@@ -229,58 +238,48 @@ std::uint64_t group_fans(const ArcSet& set, std::vector<BoxItem>& items) {
     return pairs;
 }
 
-/// Crossings become vertices of the set.
-void append(ArcSet& set, Found& all, Found& part) {
-    const auto first = static_cast<std::uint32_t>(set.vertices.size());
+/// Joins what parts found; afterwards fresh contacts count the crossings of all.
+void append(Found& all, Found& part) {
+    const auto first = static_cast<std::uint32_t>(all.crossing_points.size());
     for (PairContact& c : part.contacts) {
         if (c.fresh) c.vertex += first;
     }
-    std::move(part.crossing_points.begin(), part.crossing_points.end(), std::back_inserter(set.vertices));
+    std::move(part.crossing_points.begin(), part.crossing_points.end(), std::back_inserter(all.crossing_points));
     all.contacts.insert(all.contacts.end(), part.contacts.begin(), part.contacts.end());
     all.shared.insert(all.shared.end(), part.shared.begin(), part.shared.end());
     all.certified += part.certified, all.exact += part.exact, all.crossings += part.crossings;
-    all.exact_comparisons += part.exact_comparisons;
+    all.exact_comparisons += part.exact_comparisons, all.box_pairs += part.box_pairs;
     if (part.undecided && (!all.undecided || part.undecided->pair < all.undecided->pair))
         all.undecided = part.undecided;
 }
 
-void test_pairs(ArcSet& set, const std::vector<ArcShape>& shapes, std::span<const IdPair> pairs, unsigned threads,
-                const SkipRules& skip, Found& all) {
-    constexpr std::size_t chunk = 1024;
-    std::vector<Found> parts((pairs.size() + chunk - 1) / chunk);
+Found test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes, const BoxPairs& boxes, unsigned threads,
+                 const SkipRules& skip) {
+    std::vector<Found> parts(boxes.parts());
     parallel_for(parts.size(), threads, [&](std::size_t k) {
         PairTest test(set, shapes, skip, parts[k]);
-        for (const IdPair& p : pairs.subspan(k * chunk, std::min(chunk, pairs.size() - k * chunk)))
-            test(p);
+        boxes.visit(k, [&](std::span<const IdPair> pairs) {
+            for (const IdPair& p : pairs)
+                test(p);
+            parts[k].box_pairs += pairs.size();
+        });
     });
+    Found all;
     for (Found& part : parts)
-        append(set, all, part);
+        append(all, part);
+    return all;
 }
 
-/// Contacts in the order of pairs, whatever order these came in, and the crossings from `first` on in the order of
-/// contacts.
-void sort_contacts(ArcSet& set, std::size_t first, std::vector<PairContact>& contacts) {
-    const auto before = [](const PairContact& a, const PairContact& b) { return a.key() < b.key(); };
-    if (std::is_sorted(contacts.begin(), contacts.end(), before)) return;
-    std::sort(contacts.begin(), contacts.end(), before);
-    std::vector<std::uint32_t> from; // the crossing that belongs to each place
-    from.reserve(set.vertices.size() - first);
+/// Sorts the contacts by pairs, whatever order these came in; crossings become vertices of the set in that order.
+void settle(ArcSet& set, Found& found) {
+    std::vector<PairContact>& contacts = found.contacts;
+    std::sort(contacts.begin(), contacts.end(),
+              [](const PairContact& a, const PairContact& b) { return a.key() < b.key(); });
+    set.vertices.reserve(set.vertices.size() + found.crossing_points.size());
     for (PairContact& c : contacts) {
         if (!c.fresh) continue;
-        const auto place = static_cast<std::uint32_t>(first + from.size());
-        from.push_back(c.vertex);
-        c.vertex = place;
-    }
-    for (std::size_t k = 0; k < from.size(); ++k) { // along each cycle of the permutation
-        Vertex vertex = std::move(set.vertices[first + k]);
-        std::size_t to = k;
-        for (std::size_t next = from[to] - first; next != k; next = from[to] - first) {
-            set.vertices[first + to] = std::move(set.vertices[first + next]);
-            from[to] = static_cast<std::uint32_t>(first + to);
-            to = next;
-        }
-        set.vertices[first + to] = std::move(vertex);
-        from[to] = static_cast<std::uint32_t>(first + to);
+        set.vertices.push_back(std::move(found.crossing_points[c.vertex]));
+        c.vertex = static_cast<std::uint32_t>(set.vertices.size() - 1);
     }
 }
 
@@ -365,18 +364,10 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         PlanarStats pass = {};
         Arrangement out;
         out.set = prepare_arcs(scene, grid, shared, pass, threads, skip);
-        std::vector<ArcShape> shapes;
-        shapes.reserve(out.set.arcs.size());
-        for (const Arc& a : out.set.arcs)
-            shapes.push_back(shape_of(out.set, a));
+        const std::vector<ArcShape> shapes = shapes_of(out.set, threads);
         std::vector<BoxItem> boxes = canvas_boxes(grid, shapes);
-        const std::size_t first_crossing = out.set.vertices.size();
-        Found found;
-        if (skip.fans) found.certified = pass.box_pairs = group_fans(out.set, boxes);
-        visit_overlapping_pairs(std::move(boxes), [&](std::span<const IdPair> pairs) {
-            test_pairs(out.set, shapes, pairs, threads, skip, found);
-            pass.box_pairs += pairs.size();
-        });
+        const std::uint64_t in_fans = skip.fans ? group_fans(out.set, boxes) : 0;
+        Found found = test_pairs(out.set, shapes, BoxPairs(std::move(boxes)), threads, skip);
         std::sort(found.shared.begin(), found.shared.end());
         found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
         const std::size_t known = shared.size();
@@ -385,7 +376,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         }
         if (shared.size() > known) continue;
 
-        sort_contacts(out.set, first_crossing, found.contacts);
+        settle(out.set, found);
         pass.exact_comparisons = found.exact_comparisons;
         std::optional<Vertex> undecided;
         if (out.set.undecided != kNone)
@@ -394,7 +385,8 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
             undecided = found.undecided->vertex;
         else
             undecided = cut_arcs(out, found.contacts, pass);
-        pass.pairs_certified = found.certified, pass.pairs_exact = found.exact;
+        pass.box_pairs = found.box_pairs + in_fans;
+        pass.pairs_certified = found.certified + in_fans, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;
         pass.vertices = out.set.vertices.size(), pass.edges = out.edges.size();
         stats = pass;

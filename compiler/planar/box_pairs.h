@@ -2,6 +2,7 @@
 /// Pairs of overlapping boxes, by CGAL's box_intersection_d (kept in its own translation unit).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -20,8 +21,32 @@ struct BoxItem {
 
 using IdPair = std::pair<std::uint32_t, std::uint32_t>; ///< smaller id first
 
-/// Every pair of boxes that overlap (closed boxes: touching counts), batch by batch: memory stays linear in the boxes.
-/// A batch is ascending, but which pairs come together is CGAL's choice and differs from run to run.
-void visit_overlapping_pairs(std::vector<BoxItem> items, const std::function<void(std::span<const IdPair>)>& visit);
+/// Every pair of boxes that overlap (closed boxes: touching counts), in parts that different threads may visit: a fan
+/// with everything but itself, or a vertical strip with the pairs whose second box, from left to right, begins in it.
+class BoxPairs {
+  public:
+    /// A batch of pairs, ascending. Which pairs come together is CGAL's choice and differs from run to run.
+    using Visitor = std::function<void(std::span<const IdPair>)>;
+
+    explicit BoxPairs(std::vector<BoxItem> items);
+    [[nodiscard]] std::size_t parts() const { return fans_.size() + strips_.size(); }
+    /// Batch by batch: memory stays linear in the boxes.
+    void visit(std::size_t part, const Visitor& visitor) const;
+
+  private:
+    /// Boxes of items_, by number.
+    struct Strip {
+        std::vector<std::uint32_t> begin_here, reach_here; ///< the latter begin in strips before
+    };
+    struct Fan {
+        std::size_t first = 0, end = 0; ///< in items_
+    };
+
+    void cut_into_strips(std::size_t first);
+
+    std::vector<BoxItem> items_; ///< by fan, those without one last
+    std::vector<Fan> fans_;
+    std::vector<Strip> strips_;
+};
 
 } // namespace fetexc

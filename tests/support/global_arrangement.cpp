@@ -42,8 +42,9 @@ std::vector<SharedSupport> shared_supports(const Scene& scene, const Grid& grid)
         SupportMap map;
         if (a != b && same_support(set.curves[a], set.curves[b], map) && overlap(map)) shared.push_back({a, b});
     };
-    visit_overlapping_pairs(items,
-                            [&](std::span<const IdPair> pairs) { std::for_each(pairs.begin(), pairs.end(), test); });
+    const BoxPairs boxes(items);
+    for (std::size_t part = 0; part < boxes.parts(); ++part)
+        boxes.visit(part, [&](std::span<const IdPair> pairs) { std::for_each(pairs.begin(), pairs.end(), test); });
     std::sort(shared.begin(), shared.end());
     shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
     return shared;

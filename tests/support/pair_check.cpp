@@ -133,8 +133,9 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> box_pairs_of(const std::vec
         if (pieces[i].x.overlaps(canvas_x) && pieces[i].y.overlaps(canvas_y))
             items.push_back({pieces[i].x.lo, pieces[i].y.lo, pieces[i].x.hi, pieces[i].y.hi, i, kNoFan});
     std::vector<IdPair> all;
-    visit_overlapping_pairs(items,
-                            [&](std::span<const IdPair> pairs) { all.insert(all.end(), pairs.begin(), pairs.end()); });
+    const BoxPairs boxes(items);
+    for (std::size_t part = 0; part < boxes.parts(); ++part)
+        boxes.visit(part, [&](std::span<const IdPair> pairs) { all.insert(all.end(), pairs.begin(), pairs.end()); });
     return all;
 }
 

@@ -123,6 +123,34 @@ TEST(Extrema, Table) {
     }
 }
 
+/// A cubic whose x' has the coefficients a, 2b, c (over 3) and whose y' is 3(t² + 2t − 1), with the root √2 − 1.
+Curve with_extrema(std::int64_t a, std::int64_t b, std::int64_t c) {
+    const std::int64_t d0 = c, d1 = c + b, d2 = a + 2 * b + c;
+    return make_curve(3, {IntPoint{0, 0}, {d0, -1}, {d0 + d1, -1}, {d0 + d1 + d2, 1}});
+}
+
+TEST(Extrema, NearCuspsAreCounted) {
+    const long double r = std::sqrt(2.0L) - 1;
+    Random random(11);
+    int tried = 0, near = 0;
+    while (near < 3) {
+        ASSERT_LT(++tried, 1000000);
+        const std::int64_t a = std::int64_t{random.integer(1 << 29, 1 << 30)} << 9,
+                           b = std::int64_t{random.integer(1 << 29, 1 << 30)} << 9;
+        const long double level = r * (r * static_cast<long double>(a) + 2 * static_cast<long double>(b));
+        const long double rest = level - std::round(level);
+        if (std::abs(rest) > 0x1p-14L || std::abs(rest) < 0x1p-20L) continue; // roots 2^-54 to 2^-60 apart
+        ++near;
+        std::uint64_t near_cusps = 0;
+        EXPECT_EQ(extrema(with_extrema(a, b, -static_cast<std::int64_t>(std::round(level))), &near_cusps).size(), 1u);
+        EXPECT_EQ(near_cusps, 1u);
+    }
+    std::uint64_t near_cusps = 0;
+    EXPECT_EQ(extrema(curve({{0, 0}, {20, 20}, {0, 20}, {20, 0}}), &near_cusps).size(), 1u); // a cusp
+    EXPECT_EQ(extrema(with_extrema(1 << 20, 1 << 20, -(1 << 20) + 1), &near_cusps).size(), 2u);
+    EXPECT_EQ(near_cusps, 0u);
+}
+
 TEST(ParameterAt, EnclosesTheExactRoot) {
     Random random(4);
     for (int k = 0; k < 5000; ++k) {

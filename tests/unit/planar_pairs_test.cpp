@@ -30,9 +30,7 @@ std::vector<BoxItem> random_boxes(std::uint32_t count, Random& random) {
     return items;
 }
 
-TEST(BoxPairs, EachPairComesOnceAndPairsOfAFanNever) {
-    Random random(1);
-    const std::vector<BoxItem> items = random_boxes(1200, random);
+void expect_each_pair_once(const std::vector<BoxItem>& items, std::size_t min_parts, int min_batches) {
     std::vector<IdPair> expected, all;
     for (std::uint32_t i = 0; i < items.size(); ++i) {
         for (std::uint32_t j = i + 1; j < items.size(); ++j) {
@@ -41,14 +39,38 @@ TEST(BoxPairs, EachPairComesOnceAndPairsOfAFanNever) {
         }
     }
     int batches = 0;
-    visit_overlapping_pairs(items, [&](std::span<const IdPair> pairs) {
-        EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
-        all.insert(all.end(), pairs.begin(), pairs.end());
-        ++batches;
-    });
+    const BoxPairs boxes(items);
+    EXPECT_GE(boxes.parts(), min_parts);
+    for (std::size_t part = 0; part < boxes.parts(); ++part) {
+        boxes.visit(part, [&](std::span<const IdPair> pairs) {
+            EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+            all.insert(all.end(), pairs.begin(), pairs.end());
+            ++batches;
+        });
+    }
     std::sort(all.begin(), all.end());
     EXPECT_EQ(all, expected);
-    EXPECT_GT(batches, 1);
+    EXPECT_GE(batches, min_batches);
+}
+
+TEST(BoxPairs, PairsOfAFanAreLeftOut) {
+    Random random(1);
+    expect_each_pair_once(random_boxes(1200, random), 7, 8); // six fans, and a batch or more of the rest
+}
+
+TEST(BoxPairs, StripsShareThePairs) {
+    Random random(2);
+    std::vector<BoxItem> items;
+    for (std::uint32_t k = 0; k < 4000; ++k) { // many left ends coincide, some boxes are long
+        const double x = random.integer(0, 60), y = random.integer(0, 500);
+        items.push_back(
+            {x, y, x + random.integer(0, random.chance(0.02) ? 60 : 2), y + random.integer(0, 9), k, kNoFan});
+    }
+    expect_each_pair_once(items, 4, 4);
+    for (BoxItem& b : items)
+        b.x0 = 0, b.x1 = 60; // nothing to be gained by strips
+    expect_each_pair_once(items, 1, 1);
+    expect_each_pair_once({}, 0, 0);
 }
 
 /// Thin rectangles across each other: every one crosses all of the other direction four times.

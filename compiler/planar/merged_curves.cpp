@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/planar/merged_curves.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "compiler/parallel.h"
+
+namespace fetexc {
+namespace {
+
+using Int128 = __int128;
+
+constexpr std::size_t kChunk = 1024;
+
+struct Use {
+    Curve curve;
+    std::uint32_t shape = 0;
+    std::int32_t winding = 1; ///< +1 along the curve as stored, −1 against
+};
+
+Curve reversed(const Curve& c) {
+    std::array<IntPoint, 4> p{};
+    for (int i = 0; i <= c.degree; ++i)
+        p[i] = c.p[c.degree - i];
+    return make_curve(c.degree, p);
+}
+
+/// One direction for each curve: the lexicographically smaller control polygon.
+void canonicalise(Use& use) {
+    const auto end = use.curve.p.begin() + use.curve.degree + 1;
+    if (std::lexicographical_compare(std::make_reverse_iterator(end), use.curve.p.rend(), use.curve.p.begin(), end)) {
+        use.curve = reversed(use.curve);
+        use.winding = -use.winding;
+    }
+}
+
+/// Right of, above or below the canvas: no winding number on the canvas changes there.
+bool irrelevant(const Curve& c, const Grid& grid) {
+    std::int64_t x0 = c.p[0].x, y0 = c.p[0].y, y1 = y0;
+    for (int i = 1; i <= c.degree; ++i) {
+        x0 = std::min(x0, c.p[i].x);
+        y0 = std::min(y0, c.p[i].y), y1 = std::max(y1, c.p[i].y);
+    }
+    return x0 > grid.right() || y0 > grid.bottom() || y1 < 0;
+}
+
+/// What one chunk of the segments contributes.
+struct Collected {
+    std::vector<Use> lines, bent;
+    std::uint64_t degree_reduced = 0, segments_null = 0;
+
+    void add(const Segment& segment, std::uint32_t shape, const Grid& grid, const SkipRules& skip) {
+        std::array<IntPoint, 4> p{};
+        for (int i = 0; i <= segment.degree; ++i)
+            p[i] = {segment.p[i].x * grid.kx, segment.p[i].y * grid.ky};
+        Use use{make_curve(segment.degree, p), shape, 1};
+        if (use.curve.degree < segment.degree) ++degree_reduced;
+        if (use.curve.degree == 1 && use.curve.first() == use.curve.last()) {
+            ++segments_null;
+            return;
+        }
+        if (skip.outside && irrelevant(use.curve, grid)) return;
+        canonicalise(use);
+        (use.curve.degree == 1 ? lines : bent).push_back(use);
+    }
+};
+
+/// Direction (reduced) and offset: equal exactly for segments on one line.
+struct LineKey {
+    std::int64_t dx = 0, dy = 0;
+    Int128 offset = 0;
+    [[nodiscard]] auto tie() const { return std::tie(dx, dy, offset); }
+};
+
+LineKey line_key(const Curve& c) {
+    const std::int64_t dx = c.p[1].x - c.p[0].x, dy = c.p[1].y - c.p[0].y, g = std::gcd(dx, dy);
+    LineKey k{dx / g, dy / g, 0};
+    k.offset = static_cast<Int128>(k.dx) * c.p[0].y - static_cast<Int128>(k.dy) * c.p[0].x;
+    return k;
+}
+
+class Merger {
+  public:
+    Merger(const Grid& grid, unsigned threads, const SkipRules& skip, PlanarStats& stats)
+        : grid_(grid), threads_(threads), skip_(skip), stats_(stats) {}
+
+    MergedCurves run(const Scene& scene) {
+        collect(scene);
+        merge_lines();
+        out_.first_bent = out_.curves.size();
+        merge_bent();
+        return std::move(out_);
+    }
+
+  private:
+    void collect(const Scene& scene) {
+        std::vector<std::uint32_t> shape_of, segments;
+        for (std::uint32_t shape = 0; shape < scene.shapes.size(); ++shape) {
+            const Shape& s = scene.shapes[shape];
+            shape_of.insert(shape_of.end(), s.count, shape);
+            for (std::uint32_t k = s.first; k < s.first + s.count; ++k)
+                segments.push_back(k);
+        }
+        std::vector<Collected> chunks((segments.size() + kChunk - 1) / kChunk);
+        parallel_for_chunks(segments.size(), kChunk, threads_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k)
+                chunks[first / kChunk].add(scene.segments[segments[k]], shape_of[k], grid_, skip_);
+        });
+        stats_.segments += segments.size();
+        for (const Collected& c : chunks) {
+            lines_.insert(lines_.end(), c.lines.begin(), c.lines.end());
+            bent_.insert(bent_.end(), c.bent.begin(), c.bent.end());
+            stats_.degree_reduced += c.degree_reduced, stats_.segments_null += c.segments_null;
+        }
+    }
+
+    /// Collinear segments, cut at each other's ends; what runs back and forth cancels.
+    void merge_lines() {
+        struct Line {
+            LineKey key;
+            std::uint32_t use;
+            [[nodiscard]] auto tie() const { return std::tuple(key.dx, key.dy, key.offset, use); }
+        };
+        std::vector<Line> order(lines_.size());
+        parallel_for_chunks(lines_.size(), kChunk, threads_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k)
+                order[k] = {line_key(lines_[k].curve), static_cast<std::uint32_t>(k)};
+        });
+        parallel_sort(order, threads_, [](const Line& a, const Line& b) { return a.tie() < b.tie(); });
+        std::vector<std::uint32_t> group;
+        for (std::size_t i = 0; i < order.size();) {
+            group.clear();
+            const LineKey key = order[i].key;
+            for (; i < order.size() && order[i].key.tie() == key.tie(); ++i)
+                group.push_back(order[i].use);
+            merge_collinear(group);
+        }
+    }
+
+    void merge_collinear(const std::vector<std::uint32_t>& group) {
+        if (group.size() == 1) {
+            const Use& u = lines_[group[0]];
+            sums_.assign(1, {u.shape, u.winding});
+            return emit(u.curve);
+        }
+        struct Event {
+            IntPoint at;
+            std::uint32_t shape;
+            std::int32_t winding;
+        };
+        std::vector<Event> events;
+        for (std::uint32_t k : group) {
+            const Use& u = lines_[k]; // canonical: first() < last()
+            events.push_back({u.curve.first(), u.shape, u.winding});
+            events.push_back({u.curve.last(), u.shape, -u.winding});
+        }
+        std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+        sums_.clear();
+        for (std::size_t i = 0; i < events.size();) {
+            const IntPoint at = events[i].at;
+            for (; i < events.size() && events[i].at == at; ++i)
+                add_contribution(sums_, events[i].shape, events[i].winding);
+            normalise(sums_);
+            if (i < events.size() && !sums_.empty()) emit(make_curve(1, {at, events[i].at, IntPoint{}, IntPoint{}}));
+        }
+        stats_.pieces_shared += group.size() - 1;
+    }
+
+    void merge_bent() {
+        std::vector<std::uint32_t> order(bent_.size());
+        std::iota(order.begin(), order.end(), 0);
+        const auto polygon = [&](std::uint32_t k) { return std::tie(bent_[k].curve.degree, bent_[k].curve.p); };
+        parallel_sort(order, threads_, [&](const std::uint32_t& a, const std::uint32_t& b) {
+            return std::tuple_cat(polygon(a), std::tie(a)) < std::tuple_cat(polygon(b), std::tie(b));
+        });
+        for (std::size_t i = 0; i < order.size();) {
+            const std::size_t begin = i;
+            sums_.clear();
+            for (; i < order.size() && polygon(order[i]) == polygon(order[begin]); ++i)
+                add_contribution(sums_, bent_[order[i]].shape, bent_[order[i]].winding);
+            stats_.pieces_shared += i - begin - 1;
+            normalise(sums_);
+            if (!sums_.empty()) emit(bent_[order[begin]].curve);
+        }
+    }
+
+    void emit(const Curve& curve) {
+        out_.curves.push_back(curve);
+        out_.runs.push_back(
+            {static_cast<std::uint32_t>(out_.contributions.size()), static_cast<std::uint32_t>(sums_.size())});
+        out_.contributions.insert(out_.contributions.end(), sums_.begin(), sums_.end());
+    }
+
+    const Grid& grid_;
+    unsigned threads_;
+    const SkipRules& skip_;
+    PlanarStats& stats_;
+    std::vector<Use> lines_, bent_;
+    std::vector<Contribution> sums_;
+    MergedCurves out_;
+};
+
+} // namespace
+
+void add_contribution(std::vector<Contribution>& sums, std::uint32_t shape, std::int32_t winding) {
+    const auto it = std::find_if(sums.begin(), sums.end(), [&](const Contribution& c) { return c.shape == shape; });
+    if (it != sums.end())
+        it->winding += winding;
+    else
+        sums.push_back({shape, winding});
+}
+
+void normalise(std::vector<Contribution>& sums) {
+    std::erase_if(sums, [](const Contribution& c) { return c.winding == 0; });
+    std::sort(sums.begin(), sums.end(), [](const Contribution& a, const Contribution& b) { return a.shape < b.shape; });
+}
+
+MergedCurves merge_curves(const Scene& scene, const Grid& grid, PlanarStats& stats, unsigned threads,
+                          const SkipRules& skip) {
+    return Merger(grid, threads, skip, stats).run(scene);
+}
+
+} // namespace fetexc
