@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 #if defined(__SANITIZE_THREAD__)
 #include <atomic>
-#include <thread>
 #else
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -15,6 +15,11 @@
 #endif
 
 namespace fetexc {
+
+/// How many threads `threads` asks for.
+inline std::size_t thread_count(unsigned threads) {
+    return threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
+}
 
 /// body(k) for k = 0 … count − 1, on `threads` threads (0: all). In any order: what the calls write must not depend on
 /// it.
@@ -26,7 +31,7 @@ template <class Body> void parallel_for(std::size_t count, unsigned threads, con
         for (std::size_t k = next++; k < count; k = next++)
             body(k);
     };
-    std::vector<std::thread> pool(threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads);
+    std::vector<std::thread> pool(thread_count(threads));
     for (std::thread& t : pool)
         t = std::thread(work);
     for (std::thread& t : pool)

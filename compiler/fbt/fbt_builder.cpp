@@ -84,7 +84,7 @@ class Builder {
         }
         for (const PlanarStats& s : stats)
             add(report.planar, s);
-        ReachabilityGraph graph(map_, reach);
+        ReachabilityGraph graph(map_, reach, options_.threads);
         if (graph.conflict()) return inconsistent(graph.conflict()->i, graph.conflict()->j);
         report.planar.reach_vertices = graph.vertices(), report.planar.reach_links = graph.links().size();
         report.planar.regions_connected = graph.component_count();
@@ -157,19 +157,29 @@ class Builder {
             add(t.traits, row.traits), add(build.report.fbt, row.stats);
         t.apron = t.traits.interpolated ? 1 : 0;
         std::vector<std::uint32_t> collapsed; // vertices of the graph
+        std::vector<std::size_t> base{0};     // where each row's records begin
         for (std::uint32_t j = 0; j < t.height; ++j) {
             for (std::uint32_t v : rows[j].collapsed)
                 collapsed.push_back(graph.row_start(j) + v);
-            const std::uint64_t base = t.records.size() / 4;
-            if (base + rows[j].records.size() / 4 > fetex::kFbtAddressMask) {
-                return Error{ErrorClass::Unsupported, diag::kFbtTooLarge,
-                             "the texture needs more records than the format can address", ""};
-            }
-            append_row(rows[j], static_cast<std::uint32_t>(base), graph.row_start(j), t, regions);
-            if (t.apron == 1) append_corner(t.width, j, t);
+            base.push_back(base.back() + rows[j].records.size() / 4);
         }
+        if (base.back() > fetex::kFbtAddressMask) {
+            return Error{ErrorClass::Unsupported, diag::kFbtTooLarge,
+                         "the texture needs more records than the format can address", ""};
+        }
+        t.records.resize(4 * base.back());
+        t.texels.resize(2 * static_cast<std::size_t>(t.width + t.apron) * (t.height + t.apron));
+        parallel_for(t.height, options_.threads, [&](std::size_t j) {
+            place_row(rows[j], base[j], t.texels.begin() + static_cast<std::ptrdiff_t>(2 * j * (t.width + t.apron)), t);
+            if (t.apron == 1) place_corner(t.width, static_cast<std::uint32_t>(j), t);
+        });
         for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i)
-            append_corner(i, t.height, t);
+            place_corner(i, t.height, t);
+        for (std::uint32_t j = 0; regions != nullptr && j < t.height; ++j) {
+            for (const RegionEntry& e : rows[j].entries)
+                regions->entries.push_back(
+                    {e.record + static_cast<std::uint32_t>(base[j]), e.result, e.vertex + graph.row_start(j)});
+        }
         build.report.fbt.gpu_bytes = (t.texels.size() + t.records.size()) * sizeof(std::uint32_t);
         report_lost(collapsed, graph, build.report);
         if (regions != nullptr) {
@@ -187,7 +197,7 @@ class Builder {
     void report_lost(const std::vector<std::uint32_t>& collapsed, const ReachabilityGraph& graph,
                      CompileReport& report) const {
         if (collapsed.empty()) return;
-        const std::vector<std::uint32_t> part = graph.components();
+        const std::vector<std::uint32_t>& part = graph.components();
         std::vector<bool> is_collapsed(part.size(), false), seen(part.size(), false);
         for (std::uint32_t v : collapsed)
             is_collapsed[v] = true;
@@ -209,24 +219,23 @@ class Builder {
                                       first});
     }
 
-    static void append_row(RowOutput& row, std::uint32_t base, std::uint32_t first_vertex, fetex::FbtTexture& t,
-                           FbtRegions* regions) {
+    static void place_row(RowOutput& row, std::size_t base, std::vector<std::uint32_t>::iterator texels,
+                          fetex::FbtTexture& t) {
+        const auto first = static_cast<std::uint32_t>(base);
         for (std::uint32_t w : row.relocate)
-            row.records[w] += base;
+            row.records[w] += first;
         for (std::size_t k = 1; k < row.texels.size(); k += 2) {
-            if (row.texels[k] >> 30 != fetex::kFbtKindEmpty) row.texels[k] += base;
+            if (row.texels[k] >> 30 != fetex::kFbtKindEmpty) row.texels[k] += first;
         }
-        t.texels.insert(t.texels.end(), row.texels.begin(), row.texels.end());
-        t.records.insert(t.records.end(), row.records.begin(), row.records.end());
-        for (const RegionEntry& e : row.entries) {
-            if (regions != nullptr) regions->entries.push_back({e.record + base, e.result, e.vertex + first_vertex});
-        }
-        row = {};
+        std::copy(row.texels.begin(), row.texels.end(), texels);
+        std::copy(row.records.begin(), row.records.end(), t.records.begin() + static_cast<std::ptrdiff_t>(4 * base));
+        row.texels = {}, row.records = {}, row.relocate = {};
     }
 
-    void append_corner(std::uint32_t i, std::uint32_t j, fetex::FbtTexture& t) const {
-        t.texels.push_back(corners_.rgba(i, j));
-        t.texels.push_back(fetex::kFbtKindEmpty << 30);
+    void place_corner(std::uint32_t i, std::uint32_t j, fetex::FbtTexture& t) const {
+        const std::size_t k = 2 * (static_cast<std::size_t>(j) * (t.width + 1) + i);
+        t.texels[k] = corners_.rgba(i, j);
+        t.texels[k + 1] = fetex::kFbtKindEmpty << 30;
     }
 
     const Scene& scene_;

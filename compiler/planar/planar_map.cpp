@@ -207,8 +207,12 @@ class PlanarMap::Builder {
     std::optional<PointEnclosure> run() {
         add_vertices();
         walk_edges();
-        for (EdgeWalk& w : walks_)
-            join(w);
+        number_nodes();
+        join(map_.nodes_, &EdgeWalk::nodes);
+        join(map_.line_crossings_, &EdgeWalk::line_crossings);
+        join(map_.side_edges_, &EdgeWalk::side_edges);
+        join(map_.steps_, &EdgeWalk::steps);
+        stats_.grid_crossings = map_.line_crossings_.size();
         sort_side_edges();
         sort_into_texels();
         sort_steps();
@@ -252,28 +256,40 @@ class PlanarMap::Builder {
         });
     }
 
-    void join(EdgeWalk& w) {
-        const auto vertices = static_cast<std::uint32_t>(map_.arrangement_.set.vertices.size());
-        const std::uint32_t shift = static_cast<std::uint32_t>(map_.nodes_.size()) - vertices;
-        const auto renumber = [&](std::uint32_t& n) {
-            if (n >= vertices) n += shift;
-        };
-        for (EdgeWalk::Piece& p : w.pieces)
-            renumber(p.sub.n0), renumber(p.sub.n1);
-        for (SideEdge& e : w.side_edges)
-            renumber(e.n0), renumber(e.n1);
-        append(map_.nodes_, w.nodes);
-        append(map_.line_crossings_, w.line_crossings);
-        append(map_.side_edges_, w.side_edges);
-        append(map_.steps_, w.steps);
-        undecided_ = undecided_ ? undecided_ : w.undecided;
-        stats_.grid_crossings = map_.line_crossings_.size();
+    /// The nodes that a chunk made follow those of the chunks before.
+    void number_nodes() {
+        const std::size_t vertices = map_.nodes_.size();
+        const std::vector<std::size_t> first = starts(&EdgeWalk::nodes, vertices);
+        parallel_for(walks_.size(), threads_, [&](std::size_t c) {
+            const auto shift = static_cast<std::uint32_t>(first[c] - vertices);
+            const auto renumber = [&](std::uint32_t& n) { n += n < vertices ? 0 : shift; };
+            for (EdgeWalk::Piece& p : walks_[c].pieces)
+                renumber(p.sub.n0), renumber(p.sub.n1);
+            for (SideEdge& e : walks_[c].side_edges)
+                renumber(e.n0), renumber(e.n1);
+        });
+        for (const EdgeWalk& w : walks_)
+            undecided_ = undecided_ ? undecided_ : w.undecided;
+    }
+
+    /// Where each chunk's items begin, and where the last's end.
+    template <class T>
+    [[nodiscard]] std::vector<std::size_t> starts(std::vector<T> EdgeWalk::*items, std::size_t first) const {
+        std::vector<std::size_t> out{first};
+        for (const EdgeWalk& w : walks_)
+            out.push_back(out.back() + (w.*items).size());
+        return out;
     }
 
     /// Moves, and frees the source.
-    template <class T> static void append(std::vector<T>& to, std::vector<T>& from) {
-        to.insert(to.end(), from.begin(), from.end());
-        from = {};
+    template <class T> void join(std::vector<T>& to, std::vector<T> EdgeWalk::*items) {
+        const std::vector<std::size_t> first = starts(items, to.size());
+        to.resize(first.back());
+        parallel_for(walks_.size(), threads_, [&](std::size_t c) {
+            std::vector<T>& from = walks_[c].*items;
+            std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(first[c]));
+            from = {};
+        });
     }
 
     void sort_side_edges() {
@@ -282,21 +298,26 @@ class PlanarMap::Builder {
         });
     }
 
+    /// Each thread has a range of the texels and takes their pieces out of all chunks, in order.
     void sort_into_texels() {
         const std::size_t texels = static_cast<std::size_t>(grid_.width) * grid_.height;
+        const std::size_t range = texels / thread_count(threads_) + 1;
+        const auto each_piece = [&](const auto& visit) {
+            parallel_for_chunks(texels, range, threads_, [&](std::size_t first, std::size_t end) {
+                for (const EdgeWalk& w : walks_) {
+                    for (const EdgeWalk::Piece& p : w.pieces) {
+                        if (first <= p.texel && p.texel < end) visit(p);
+                    }
+                }
+            });
+        };
         map_.texel_start_.assign(texels + 1, 0);
-        for (const EdgeWalk& w : walks_) {
-            for (const EdgeWalk::Piece& p : w.pieces)
-                ++map_.texel_start_[p.texel + 1];
-        }
+        each_piece([&](const EdgeWalk::Piece& p) { ++map_.texel_start_[p.texel + 1]; });
         std::partial_sum(map_.texel_start_.begin(), map_.texel_start_.end(), map_.texel_start_.begin());
         std::vector<std::uint32_t> next(map_.texel_start_.begin(), map_.texel_start_.end() - 1);
         map_.sub_edges_.resize(map_.texel_start_.back());
-        for (EdgeWalk& w : walks_) {
-            for (const EdgeWalk::Piece& p : w.pieces)
-                map_.sub_edges_[next[p.texel]++] = p.sub;
-            w.pieces = {};
-        }
+        each_piece([&](const EdgeWalk::Piece& p) { map_.sub_edges_[next[p.texel]++] = p.sub; });
+        walks_.clear();
     }
 
     void sort_steps() {

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
+#include "compiler/parallel.h"
 #include "compiler/union_find.h"
 
 namespace fetexc {
 namespace {
 
-void sort_unique(std::vector<ReachLink>& links, std::size_t from) {
-    const auto begin = links.begin() + static_cast<std::ptrdiff_t>(from);
-    std::sort(begin, links.end());
-    links.erase(std::unique(begin, links.end()), links.end());
+void sort_unique(std::vector<ReachLink>& links) {
+    std::sort(links.begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
 }
 
 } // namespace
@@ -102,39 +102,59 @@ void ReachabilityRow::list_parts(const TexelMap& texel, TexelSide side, std::spa
     }
 }
 
-ReachabilityGraph::ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows) {
+ReachabilityGraph::ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows, unsigned threads) {
     row_start_.push_back(0);
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-        ReachabilityRow& row = rows[j];
-        if (!conflict_) conflict_ = row.conflict_;
-        const std::uint32_t base = row_start_.back();
-        const std::size_t first_link = links_.size();
+    for (const ReachabilityRow& row : rows) {
         column_.insert(column_.end(), row.column_.begin(), row.column_.end());
         result_.insert(result_.end(), row.result_.begin(), row.result_.end());
-        for (const ReachLink& l : row.links_)
-            links_.push_back({base + l.a, base + l.b});
         row_start_.push_back(static_cast<std::uint32_t>(result_.size()));
-        if (j + 1 < rows.size()) {
-            link_rows(map, row, rows[j + 1]);
-        }
-        sort_unique(links_, first_link);
     }
+    std::vector<RowLinks> links(rows.size());
+    parallel_for(rows.size(), threads, [&](std::size_t j) {
+        links[j] = links_of(rows[j]);
+        if (j + 1 < rows.size()) link_rows(map, rows[j], rows[j + 1], links[j]);
+        sort_unique(links[j].links);
+    });
+    for (const RowLinks& row : links) {
+        links_.insert(links_.end(), row.links.begin(), row.links.end());
+        conflict_ = conflict_ ? conflict_ : row.conflict;
+    }
+    find_components();
 }
 
-void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below) {
-    const std::uint32_t below_base = row_start_.back(), above_base = row_start_[row_start_.size() - 2];
+ReachabilityGraph::RowLinks ReachabilityGraph::links_of(const ReachabilityRow& row) const {
+    RowLinks out{row.links_, row.conflict_};
+    for (ReachLink& l : out.links)
+        l.a += row_start_[row.row_], l.b += row_start_[row.row_];
+    return out;
+}
+
+void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below,
+                                  RowLinks& out) const {
     ReachabilityRow::facing(map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width),
                             [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
                                 if (above.result_[a] == below.result_[b]) {
-                                    links_.push_back({above_base + a, below_base + b});
+                                    out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
                                     return;
                                 }
                                 const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
-                                for (HalfStep h = from.h >> 1; h <= last && !conflict_; ++h) {
+                                for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
                                     const auto i = static_cast<std::uint32_t>(h);
-                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to)) conflict_ = {i, below.row_};
+                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to))
+                                        out.conflict = {i, below.row_};
                                 }
                             });
+}
+
+void ReachabilityGraph::find_components() {
+    UnionFind sets(vertices());
+    for (const ReachLink& l : links_)
+        sets.unite(l.a, l.b);
+    components_.resize(vertices());
+    for (std::uint32_t v = 0; v < components_.size(); ++v) {
+        components_[v] = sets.find(v);
+        component_count_ += components_[v] == v ? 1 : 0;
+    }
 }
 
 std::uint32_t ReachabilityGraph::first_vertex(std::uint32_t i, std::uint32_t j) const {
@@ -146,24 +166,6 @@ std::uint32_t ReachabilityGraph::first_vertex(std::uint32_t i, std::uint32_t j) 
 std::uint32_t ReachabilityGraph::row(std::uint32_t vertex) const {
     return static_cast<std::uint32_t>(std::upper_bound(row_start_.begin(), row_start_.end(), vertex) -
                                       row_start_.begin() - 1);
-}
-
-std::vector<std::uint32_t> ReachabilityGraph::components() const {
-    UnionFind sets(vertices());
-    for (const ReachLink& l : links_)
-        sets.unite(l.a, l.b);
-    std::vector<std::uint32_t> out(vertices());
-    for (std::uint32_t v = 0; v < out.size(); ++v)
-        out[v] = sets.find(v);
-    return out;
-}
-
-std::uint64_t ReachabilityGraph::component_count() const {
-    const std::vector<std::uint32_t> of = components();
-    std::uint64_t n = 0;
-    for (std::uint32_t v = 0; v < of.size(); ++v)
-        n += of[v] == v ? 1 : 0;
-    return n;
 }
 
 } // namespace fetexc

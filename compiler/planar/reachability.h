@@ -76,7 +76,7 @@ class ReachabilityRow {
 class ReachabilityGraph {
   public:
     /// Joins all rows of the map, from the top.
-    ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows);
+    ReachabilityGraph(const PlanarMap& map, std::vector<ReachabilityRow>& rows, unsigned threads);
 
     [[nodiscard]] std::size_t vertices() const { return result_.size(); }
     [[nodiscard]] std::span<const ReachLink> links() const { return links_; } ///< ascending
@@ -89,16 +89,25 @@ class ReachabilityGraph {
     [[nodiscard]] std::uint32_t column(std::uint32_t vertex) const { return column_[vertex]; }
     [[nodiscard]] std::uint32_t row(std::uint32_t vertex) const;
     /// For every vertex the smallest vertex that it can reach.
-    [[nodiscard]] std::vector<std::uint32_t> components() const;
-    [[nodiscard]] std::uint64_t component_count() const;
+    [[nodiscard]] const std::vector<std::uint32_t>& components() const { return components_; }
+    [[nodiscard]] std::uint64_t component_count() const { return component_count_; }
     [[nodiscard]] const std::optional<ReachConflict>& conflict() const { return conflict_; }
 
   private:
-    void link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below);
+    struct RowLinks {
+        std::vector<ReachLink> links; ///< inside a row and to the one below
+        std::optional<ReachConflict> conflict;
+    };
+    [[nodiscard]] RowLinks links_of(const ReachabilityRow& row) const;
+    void link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below,
+                   RowLinks& out) const;
+    void find_components();
 
     std::vector<std::uint32_t> row_start_, column_;
     std::vector<ResultId> result_;
     std::vector<ReachLink> links_;
+    std::vector<std::uint32_t> components_;
+    std::uint64_t component_count_ = 0;
     std::optional<ReachConflict> conflict_;
 };
 

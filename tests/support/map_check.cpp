@@ -52,7 +52,7 @@ class Checker {
         }
         if (out_.failure) return out_;
         check_bottom();
-        const ReachabilityGraph graph(map_, rows);
+        const ReachabilityGraph graph(map_, rows, 1);
         if (graph.conflict()) fail(graph.conflict()->i, graph.conflict()->j, "neighbouring texels disagree");
         sum_faces(graph, areas);
         if (options_.inside) check_whole_plane(graph);
