@@ -133,6 +133,7 @@ class Preparer {
             return it->second;
         };
         ends_.reserve(out_.curves.size());
+        out_.vertices.reserve(2 * out_.curves.size());
         for (const Curve& c : out_.curves) {
             const std::uint32_t first = vertex_at(c.first());
             ends_.emplace_back(first, vertex_at(c.last()));

@@ -88,6 +88,8 @@ class Merger {
 
     MergedCurves run(const Scene& scene) {
         collect(scene);
+        out_.curves.reserve(lines_.size() + bent_.size());
+        out_.runs.reserve(out_.curves.capacity()), out_.contributions.reserve(out_.curves.capacity());
         merge_lines();
         out_.first_bent = out_.curves.size();
         merge_bent();
@@ -109,6 +111,10 @@ class Merger {
                 chunks[first / kChunk].add(scene.segments[segments[k]], shape_of[k], grid_, skip_);
         });
         stats_.segments += segments.size();
+        std::size_t lines = 0, bent = 0;
+        for (const Collected& c : chunks)
+            lines += c.lines.size(), bent += c.bent.size();
+        lines_.reserve(lines), bent_.reserve(bent);
         for (const Collected& c : chunks) {
             lines_.insert(lines_.end(), c.lines.begin(), c.lines.end());
             bent_.insert(bent_.end(), c.bent.begin(), c.bent.end());
