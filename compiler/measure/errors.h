@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Errors of a picture against the truth. One set of definitions for assets, bitmaps and every alternative.
+///
+/// *Class.* A sampled colour is taken for the result that it is nearest to (Euclidean distance of premultiplied RGBA),
+/// among the truth's result at the point and the results on both sides of every visible edge within `reach`, each with
+/// the colour it would have at the point; a tie goes to the truth. For two solid colours that is the threshold halfway
+/// between them.
+/// *Misclassified area.* The share of sample points whose class has another colour than the truth.
+/// *Boundary distance.* To the truth: points where the picture's class changes between neighbouring sample points,
+/// found by bisection, to the nearest visible edge. To the picture: points spaced along the visible edges, to the
+/// nearest change of the picture's class, along the edge's normal or to the boundary found between sample points,
+/// whichever is nearer, up to `reach`; edges with less contrast than `min_contrast` are left out and counted.
+/// *PSNR.* 10·log10(1 / mean square error) of the anti-aliased picture, the box mean over each pixel (of the picture:
+/// supersampled), against the exactly integrated truth; over r, g, b, composited over black and over white.
+/// *Colour error.* Largest difference of a channel, at sample points farther than a texel from every visible edge.
+/// *Islands.* Connected sets of sample points (four neighbours) of one class. Lost: one of the truth no point of which
+/// has its class in the picture. False: one of the picture no point of which has its class in the truth.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/measure/picture.h"
+#include "compiler/measure/truth.h"
+
+namespace fetexc::measure {
+
+struct MeasureOptions {
+    std::vector<GridSize> sizes;     ///< output sizes in pixels, at whose centres the picture is sampled
+    double reach = 1.5;              ///< texels
+    double min_contrast = 4.0 / 255; ///< largest difference of a channel across an edge
+    unsigned supersample = 16;       ///< samples on a side of a pixel that an edge crosses
+    unsigned threads = 0;            ///< never changes the figures
+};
+
+/// In width units.
+struct Distances {
+    double mean = 0, p95 = 0, hausdorff = 0;
+    std::uint64_t points = 0;
+    std::uint64_t beyond_reach = 0; ///< counted with `reach`
+    WidthPoint farthest;
+};
+
+struct Islands {
+    std::uint64_t lost = 0, invented = 0;
+    double largest_ppm = 0; ///< area of the largest of both
+    TexturePoint place;     ///< a point of that one
+};
+
+struct ColorError {
+    double max = 0, mean = 0; ///< 0…1
+    std::uint64_t points = 0;
+    TexturePoint place; ///< of max
+};
+
+/// At one output size.
+struct SizeErrors {
+    GridSize pixels;
+    double pixels_per_texel = 0;
+    double misclassified_ppm = 0;
+    double misclassified_error_ppm = 0; ///< of sampling: one standard deviation
+    TexturePoint misclassified_place;   ///< the first one in row-major order
+    Distances to_truth, to_picture;
+    double psnr = 0; ///< dB; infinite for equal pictures
+    ColorError away;
+    Islands islands;
+    std::uint64_t edges_without_contrast = 0;
+};
+
+Result<std::vector<SizeErrors>> measure(const Truth& truth, const Picture& picture, const MeasureOptions& options);
+
+} // namespace fetexc::measure
