@@ -212,6 +212,16 @@ TEST(SvgThreads, manyFillsAreTheSame) {
     expect_same(body, {}, outcome(body, {}, 1));
 }
 
+TEST(SvgThreads, shapesReadBesideTheParserAreTheSame) {
+    std::string body; // no arcs: nothing can exceed the limit
+    for (int i = 0; i < 400; ++i)
+        body += "<path id='p" + std::to_string(i % 300) + "' d='M" + std::to_string(i % 90) + " 3q4 1 3 7.25t1 2z'/>" +
+                "<circle r='" + std::to_string(i % 7) + ".3' transform='translate(" + std::to_string(i) + ".7)'/>";
+    expect_same(body, {}, outcome(body, {}, 1));
+    const std::string broken = body + "<image href='data:image/svg+xml;utf8,&lt;svg'/><use href='#none'/>";
+    expect_same(broken, {}, outcome(broken, {}, 1));
+}
+
 TEST(SvgThreads, aLimitWhileShapesAreReadIsExact) {
     const std::string body = "<defs>" + fills(200) + "</defs><path d='M0 0h9v9z'/>"; // read, but not drawn
     SvgOptions options;

@@ -217,8 +217,8 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     let lines = Lines::new(&text);
     let mut report = Report::new(fontdb.is_empty());
     report_dropped(&doc, &lines, &mut report);
-    let mut recovery = Recovery::new(&doc, &lines, settings)?;
-    let (tree, svgs) = convert(&doc, settings, fontdb)?;
+    let (mut recovery, converted) = Recovery::beside(&doc, &lines, settings, || convert(&doc, settings, fontdb))?;
+    let (tree, svgs) = converted?;
     budget.check_time()?;
     for svg in svgs {
         let text = plain_text(&svg, settings.max_bytes)?;

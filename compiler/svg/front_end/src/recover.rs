@@ -16,7 +16,7 @@ use crate::geom::Path;
 use crate::load::Settings;
 use crate::names::Lines;
 use crate::parallel::try_map;
-use crate::shapes::shape;
+use crate::shapes::{most_segments, shape};
 use crate::twin::{fingerprint, from_usvg};
 
 /// Where a shape came from and what usvg forgets about it.
@@ -124,14 +124,31 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
 const WORTH_THREADS: usize = 16 << 10;
 
 impl Recovery {
-    pub fn new(doc: &Document, lines: &Lines, settings: &Settings) -> Result<Self, Failure> {
+    /// Of the drawing itself. `beside` (what usvg does) runs at the same time if no shape can exceed the limit of
+    /// segments, else afterwards: usvg gets no shapes that are refused here.
+    pub fn beside<R>(
+        doc: &Document,
+        lines: &Lines,
+        settings: &Settings,
+        beside: impl FnOnce() -> R,
+    ) -> Result<(Self, R), Failure> {
         let mut out = Recovery { root: root_frame(&doc.root_element(), settings.dpi), ..Recovery::default() };
-        out.add(doc, lines, settings)?;
-        Ok(out)
+        let result = out.add_beside(doc, lines, settings, beside)?;
+        Ok((out, result))
     }
 
-    /// The shapes and transforms of a document: the drawing itself, or an SVG image inside it.
+    /// The same of an SVG image inside it.
     pub fn add(&mut self, doc: &Document, lines: &Lines, settings: &Settings) -> Result<(), Failure> {
+        self.add_beside(doc, lines, settings, || ())
+    }
+
+    fn add_beside<R>(
+        &mut self,
+        doc: &Document,
+        lines: &Lines,
+        settings: &Settings,
+        beside: impl FnOnce() -> R,
+    ) -> Result<R, Failure> {
         let elements: Vec<Node> = doc.descendants().filter(Node::is_element).collect();
         for node in &elements {
             self.remember_transforms(node, settings.dpi);
@@ -139,15 +156,19 @@ impl Recovery {
                 self.remember_mask(node);
             }
         }
+        let source = Source { elements, lines, settings };
         let ahead = settings.threads > 1 && doc.input_text().len() >= WORTH_THREADS;
-        let shapes = match ahead.then(|| shapes_on_threads(&elements, lines, settings)).flatten() {
-            Some(shapes) => shapes,
-            None => shapes_in_order(&elements, lines, settings)?,
+        let (shapes, result) = if ahead && source.surely_within_limit() {
+            let (shapes, result) = source.shapes_on_threads(beside);
+            (shapes.map_or_else(|| source.shapes_in_order(), Ok)?, result)
+        } else {
+            let shapes = ahead.then(|| source.shapes_on_threads(|| ()).0).flatten();
+            (shapes.map_or_else(|| source.shapes_in_order(), Ok)?, beside())
         };
         for (fingerprint, known) in shapes {
             self.shapes.entry(fingerprint).or_default().push(known);
         }
-        Ok(())
+        Ok(result)
     }
 
     fn remember_transforms(&mut self, node: &Node, dpi: f64) {
@@ -215,43 +236,64 @@ impl Recovery {
     }
 }
 
-/// A shape and its fingerprint; None for other elements, and when the budget of segments runs out (then it is 0).
-fn known_shape(node: &Node, lines: &Lines, dpi: f64, budget: &mut usize) -> Option<(u64, Known)> {
-    let twin = shape(node, dpi, budget)?;
-    let fingerprint = fingerprint(&twin.f32_path.finish()?);
-    Some((fingerprint, Known { origin: Arc::new(origin(node, lines)), path: Arc::new(twin.exact.finish()) }))
+/// A document's elements and what is needed to read them.
+struct Source<'a, 'i> {
+    elements: Vec<Node<'a, 'i>>,
+    lines: &'a Lines,
+    settings: &'a Settings,
 }
 
-fn segments_of(settings: &Settings) -> usize {
-    usize::try_from(settings.max_segments).unwrap_or(usize::MAX)
-}
-
-fn shapes_in_order(elements: &[Node], lines: &Lines, settings: &Settings) -> Result<Vec<(u64, Known)>, Failure> {
-    let mut budget = segments_of(settings);
-    let mut shapes = Vec::new();
-    for node in elements {
-        shapes.extend(known_shape(node, lines, settings.dpi, &mut budget));
-        if budget == 0 {
-            let message = format!("more than {} path segments", settings.max_segments);
-            return Err(Failure::new(Code::TooManySegments, message));
-        }
+impl Source<'_, '_> {
+    /// Told without parsing: a segment takes more than half a byte, where arcs don't multiply them.
+    fn surely_within_limit(&self) -> bool {
+        let mut left = self.limit();
+        self.elements.iter().all(|node| {
+            let Some(most) = most_segments(node, self.settings.dpi) else { return false };
+            left = left.saturating_sub(most);
+            left > 0
+        })
     }
-    Ok(shapes)
-}
 
-/// The same; None where that fails.
-fn shapes_on_threads(elements: &[Node], lines: &Lines, settings: &Settings) -> Option<Vec<(u64, Known)>> {
-    let left = AtomicUsize::new(segments_of(settings));
-    let shapes = try_map(elements, settings.threads, |node| {
-        let before = left.load(Ordering::Relaxed);
-        let mut after = before;
-        let shape = known_shape(node, lines, settings.dpi, &mut after);
-        let cost = before - after;
-        let take = |left: usize| left.checked_sub(cost).filter(|rest| *rest > 0);
-        left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).ok()?;
-        Some(shape)
-    });
-    Some(shapes?.into_iter().flatten().collect())
+    fn limit(&self) -> usize {
+        usize::try_from(self.settings.max_segments).unwrap_or(usize::MAX)
+    }
+
+    /// A shape and its fingerprint; None for other elements, and when the budget of segments runs out (then it is 0).
+    fn shape(&self, node: &Node, budget: &mut usize) -> Option<(u64, Known)> {
+        let twin = shape(node, self.settings.dpi, budget)?;
+        let fingerprint = fingerprint(&twin.f32_path.finish()?);
+        let origin = Arc::new(origin(node, self.lines));
+        Some((fingerprint, Known { origin, path: Arc::new(twin.exact.finish()) }))
+    }
+
+    fn shapes_in_order(&self) -> Result<Vec<(u64, Known)>, Failure> {
+        let mut budget = self.limit();
+        let mut shapes = Vec::new();
+        for node in &self.elements {
+            shapes.extend(self.shape(node, &mut budget));
+            if budget == 0 {
+                let message = format!("more than {} path segments", self.settings.max_segments);
+                return Err(Failure::new(Code::TooManySegments, message));
+            }
+        }
+        Ok(shapes)
+    }
+
+    /// The same; None where that fails.
+    fn shapes_on_threads<R>(&self, beside: impl FnOnce() -> R) -> (Option<Vec<(u64, Known)>>, R) {
+        let left = AtomicUsize::new(self.limit());
+        let work = |node: &Node| {
+            let before = left.load(Ordering::Relaxed);
+            let mut after = before;
+            let shape = self.shape(node, &mut after);
+            let cost = before - after;
+            let take = |left: usize| left.checked_sub(cost).filter(|rest| *rest > 0);
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).ok()?;
+            Some(shape)
+        };
+        let (shapes, result) = try_map(&self.elements, self.settings.threads, work, beside);
+        (shapes.map(|all| all.into_iter().flatten().collect()), result)
+    }
 }
 
 fn best<'a>(known: &'a [Known], id: &str) -> Option<&'a Known> {

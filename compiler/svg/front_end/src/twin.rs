@@ -217,9 +217,14 @@ fn expansion(raw: &PathSegment, cur: Point, after_close: bool) -> (usize, Option
     }
 }
 
+/// Whether path data has an arc; not asked of every byte in turn, so that the compiler can take many at once.
+pub fn may_hold_arcs(d: &str) -> bool {
+    d.as_bytes().chunks(64).any(|part| part.iter().fold(false, |found, b| found | (b | 0x20 == b'a')))
+}
+
 /// The `d` attribute. `budget` is the number of segments left; None when it runs out.
 pub fn path_data(d: &str, budget: &mut usize) -> Option<Twin> {
-    if d.contains(['a', 'A']) {
+    if may_hold_arcs(d) {
         return data_with_arcs(d, budget);
     }
     let mut twin = Twin::default();
