@@ -51,6 +51,4 @@ CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale) {
     return out;
 }
 
-LatticePoint snap(CanvasPoint p) { return {std::llround(p.x), std::llround(p.y)}; }
-
 } // namespace fetexc

@@ -25,6 +25,13 @@ Result<Extent> make_extent(double width, double height);
 [[nodiscard]] CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale);
 
 /// Nearest lattice point; halves round away from zero. The point must lie within ±kLatticeLimit.
-[[nodiscard]] LatticePoint snap(CanvasPoint p);
+[[nodiscard]] inline LatticePoint snap(CanvasPoint p) {
+    const auto nearest = [](double v) { // std::llround, inlined
+        const auto whole = static_cast<std::int64_t>(v);
+        const double rest = v - static_cast<double>(whole); // exact
+        return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+    };
+    return {nearest(p.x), nearest(p.y)};
+}
 
 } // namespace fetexc

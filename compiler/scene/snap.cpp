@@ -2,29 +2,21 @@
 #include "compiler/scene/snap.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
-#include <unordered_map>
 
 #include "compiler/diagnostics.h"
 #include "compiler/error_budget.h"
+#include "compiler/flat_index.h"
 #include "compiler/scene/guard_box.h"
 #include "compiler/scene/lattice.h"
 #include "compiler/scene/vertex_merge.h"
 
 namespace fetexc {
 namespace {
-
-/// Closed contours of all shapes, clipped, in lattice space but still in double.
-struct Clipped {
-    struct Contour {
-        std::size_t first = 0, end = 0;
-        std::uint32_t shape = 0;
-    };
-    std::vector<CanvasSegment> segments;
-    std::vector<Contour> contours;
-};
 
 bool same(CanvasPoint a, CanvasPoint b) { return a.x == b.x && a.y == b.y; }
 
@@ -48,42 +40,59 @@ CanvasSegment line(CanvasPoint a, CanvasPoint b) {
     return s;
 }
 
-/// The contour scaled, its gaps (usually only the last) closed by lines, clipped to the guard box.
-void clip_contour(const CanvasContour& contour, LatticeScale scale, const GuardBox& box,
-                  std::vector<CanvasSegment>& out) {
-    std::optional<CanvasPoint> start, pen;
-    for (const CanvasSegment& segment : contour) {
-        const CanvasSegment s = to_lattice_space(segment, scale);
-        if (!start) start = s.p[0];
-        if (pen && !same(*pen, s.p[0])) clip_to_guard_box(line(*pen, s.p[0]), box, out);
-        clip_to_guard_box(s, box, out);
-        pen = s.p[s.degree];
-    }
-    if (pen && !same(*pen, *start)) clip_to_guard_box(line(*pen, *start), box, out);
-}
+/// Closed contours clipped, in lattice space but still in double. Doing it again when they are needed again is cheaper
+/// than to keep them.
+class ContourClipper {
+  public:
+    explicit ContourClipper(const Extent& extent) : scale_(lattice_scale(extent)), box_(guard_box(extent)) {}
 
-Result<Clipped> clip_shapes(const std::vector<RawShape>& raw, Scene& scene) {
-    Clipped out;
-    const LatticeScale scale = lattice_scale(scene.extent);
-    const GuardBox box = guard_box(scene.extent);
-    std::size_t segments = 0, contours = 0;
-    for (const RawShape& shape : raw) {
-        contours += shape.contours.size();
+    /// The contour scaled, its gaps (usually only the last) closed by lines, clipped to the guard box. Each segment
+    /// starts exactly where the one before it ends. Valid until the next call.
+    const std::vector<CanvasSegment>& clip(const CanvasContour& contour) {
+        clipped_.clear();
+        std::optional<CanvasPoint> start, pen;
+        for (const CanvasSegment& segment : contour) {
+            const CanvasSegment s = to_lattice_space(segment, scale_);
+            if (!start) start = s.p[0];
+            if (pen && !same(*pen, s.p[0])) clip_to_guard_box(line(*pen, s.p[0]), box_, clipped_);
+            clip_to_guard_box(s, box_, clipped_);
+            pen = s.p[s.degree];
+        }
+        if (pen && !same(*pen, *start)) clip_to_guard_box(line(*pen, *start), box_, clipped_);
+        return clipped_;
+    }
+
+  private:
+    LatticeScale scale_;
+    GuardBox box_;
+    std::vector<CanvasSegment> clipped_;
+};
+
+std::size_t count_segments(const std::vector<RawShape>& raw) {
+    std::size_t segments = 0;
+    for (const RawShape& shape : raw)
         for (const CanvasContour& contour : shape.contours)
             segments += contour.size() + 1;
-    }
-    out.segments.reserve(segments);
-    out.contours.reserve(contours);
-    for (std::uint32_t shape = 0; shape < raw.size(); ++shape)
-        for (const CanvasContour& contour : raw[shape].contours) {
+    return segments;
+}
+
+/// Adds the start of every clipped segment to `merge`, and its number there to `joints`: contours are closed, so every
+/// joint is one segment's start.
+Status add_joints(const std::vector<RawShape>& raw, ContourClipper& clipper, VertexMerge& merge,
+                  std::vector<std::uint32_t>& joints, Scene& scene) {
+    for (const RawShape& shape : raw)
+        for (const CanvasContour& contour : shape.contours) {
             for (const CanvasSegment& s : contour)
-                if (Status status = check(s, raw[shape], scene); !status) return status.error();
+                if (Status status = check(s, shape, scene); !status) return status.error();
             scene.stats.segments_in += contour.size();
-            const std::size_t first = out.segments.size();
-            clip_contour(contour, scale, box, out.segments);
-            out.contours.push_back({first, out.segments.size(), shape});
+            for (const CanvasSegment& s : clipper.clip(contour)) {
+                if (joints.size() + 1 >= kNone)
+                    return Error{ErrorClass::InvalidInput, diag::kSceneTooLarge,
+                                 "more path segments than 32-bit indices hold", ""};
+                joints.push_back(merge.add(snap(s.p[0])));
+            }
         }
-    return out;
+    return {};
 }
 
 bool collinear(LatticePoint o, LatticePoint a, LatticePoint b) {
@@ -92,7 +101,8 @@ bool collinear(LatticePoint o, LatticePoint a, LatticePoint b) {
 }
 
 bool within_merge_distance(LatticePoint a, LatticePoint b) {
-    return std::hypot(static_cast<double>(a.x - b.x), static_cast<double>(a.y - b.y)) < budget::kMergeDistance;
+    const std::int64_t dx = a.x - b.x, dy = a.y - b.y;
+    return static_cast<double>(dx * dx + dy * dy) < budget::kMergeDistance * budget::kMergeDistance;
 }
 
 /// With equal end points only a cubic that encloses something, and more than a merged point, is left.
@@ -102,20 +112,22 @@ bool vanishes(const Segment& s) {
     return within_merge_distance(s.p[0], s.p[1]) && within_merge_distance(s.p[0], s.p[2]);
 }
 
+/// A segment's end points as joints, by the numbers of their leaders.
+struct Ends {
+    std::uint32_t first = kNone, last = kNone;
+};
+
 /// Borders drawn twice with rounding noise share their end points after the merge, but their handles may still differ.
 /// A curve whose handles are all within the merge distance of an earlier curve's between the same end points takes them
 /// over.
 class TwinCurves {
   public:
-    explicit TwinCurves(std::size_t segments) {
-        chains_.reserve(segments);
-        known_.reserve(segments);
-    }
-    void share(Segment& s) {
+    void share(Segment& s, Ends ends) {
         if (s.degree == 1) return;
         const bool flipped = s.p[s.degree] < s.p[0];
+        if (flipped) std::swap(ends.first, ends.last);
         if (flipped) std::reverse(s.p.begin(), s.p.begin() + s.degree + 1);
-        adopt(s);
+        adopt(s, ends);
         if (flipped) std::reverse(s.p.begin(), s.p.begin() + s.degree + 1);
     }
 
@@ -123,55 +135,67 @@ class TwinCurves {
     /// Bounds the work when very many curves join the same two points; later ones then keep their own handles.
     static constexpr std::size_t kMaxTwins = 64;
 
-    void adopt(Segment& s) {
-        const auto [it, fresh] = chains_.try_emplace(key(s), static_cast<std::uint32_t>(known_.size()));
-        if (fresh) return known_.push_back({s, kNone});
-        std::uint32_t k = it->second;
+    void adopt(Segment& s, Ends ends) {
+        const auto number = static_cast<std::uint32_t>(known_.size());
+        const auto [first, fresh] = chains_.try_emplace(std::uint64_t{ends.first} << 32 | ends.last, number);
+        if (fresh) return known_.push_back({s.degree, s.p[1], s.p[2]});
+        std::uint32_t k = first;
         for (std::size_t twins = 1;; k = known_[k].next, ++twins) {
-            if (is_twin(known_[k].curve, s)) {
-                s.p = known_[k].curve.p;
+            if (is_twin(known_[k], s)) {
+                s.p[1] = known_[k].p1;
+                if (s.degree == 3) s.p[2] = known_[k].p2;
                 return;
             }
             if (twins == kMaxTwins) return;
             if (known_[k].next == kNone) break;
         }
-        known_[k].next = static_cast<std::uint32_t>(known_.size());
-        known_.push_back({s, kNone});
+        known_[k].next = number;
+        known_.push_back({s.degree, s.p[1], s.p[2]});
     }
-    static bool is_twin(const Segment& twin, const Segment& s) {
-        if (twin.degree != s.degree || twin.p[0] != s.p[0] || twin.p[s.degree] != s.p[s.degree]) return false;
-        for (int i = 1; i < s.degree; ++i)
-            if (!within_merge_distance(twin.p[i], s.p[i])) return false;
-        return true;
-    }
-    /// Hashes of both end points; is_twin compares everything.
-    static LatticePoint key(const Segment& s) {
-        const std::size_t a = LatticePointHash{}(s.p[0]), b = LatticePointHash{}(s.p[s.degree]);
-        return {static_cast<std::int64_t>(a), static_cast<std::int64_t>(b)};
-    }
+
     struct Known {
-        Segment curve;
-        std::uint32_t next = kNone; ///< with the same key
+        int degree = 0;
+        LatticePoint p1, p2;        ///< handles; p2 only of a cubic
+        std::uint32_t next = kNone; ///< between the same end points
+    };
+    static bool is_twin(const Known& twin, const Segment& s) {
+        if (twin.degree != s.degree || !within_merge_distance(twin.p1, s.p[1])) return false;
+        return s.degree == 2 || within_merge_distance(twin.p2, s.p[2]);
+    }
+    struct Hash {
+        std::size_t operator()(std::uint64_t ends) const { return static_cast<std::size_t>(mixed_bits(ends)); }
     };
     std::vector<Known> known_;
-    std::unordered_map<LatticePoint, std::uint32_t, LatticePointHash> chains_; ///< key → first
+    FlatIndex<std::uint64_t, Hash> chains_; ///< both ends → first
+};
+
+/// The largest move of a control point.
+class Displacement {
+  public:
+    void add(CanvasPoint from, LatticePoint to) {
+        const double dx = static_cast<double>(to.x) - from.x, dy = static_cast<double>(to.y) - from.y;
+        if (dx * dx + dy * dy < ignored_) return;
+        max_ = std::max(max_, std::hypot(dx, dy));
+        ignored_ = 0.999 * max_ * max_;
+    }
+    [[nodiscard]] double max() const { return max_; }
+
+  private:
+    double max_ = 0;
+    double ignored_ = 0; ///< certainly less than max_, squared
 };
 
 CanvasPoint shifted(CanvasPoint p, double dx, double dy) { return {p.x + dx, p.y + dy}; }
 
-double displacement(CanvasPoint from, LatticePoint to) {
-    return std::hypot(static_cast<double>(to.x) - from.x, static_cast<double>(to.y) - from.y);
-}
-
-/// Snaps one clipped segment: end points go to their leaders, a handle follows its end point (a quadratic's handle
+/// Snaps one clipped segment whose end points go to a and b: a handle follows its end point (a quadratic's handle
 /// follows the mean of both), then snaps.
-Segment snap_segment(const CanvasSegment& s, const VertexMerge& merge) {
+Segment snap_segment(const CanvasSegment& s, LatticePoint a, LatticePoint b) {
     Segment out;
     out.degree = s.degree;
-    const CanvasPoint p0 = s.p[0], p1 = s.p[s.degree];
-    const LatticePoint a = merge.leader(snap(p0)), b = merge.leader(snap(p1));
     out.p[0] = a;
     out.p[s.degree] = b;
+    if (s.degree == 1) return out;
+    const CanvasPoint p0 = s.p[0], p1 = s.p[s.degree];
     const double ax = static_cast<double>(a.x) - p0.x, ay = static_cast<double>(a.y) - p0.y;
     const double bx = static_cast<double>(b.x) - p1.x, by = static_cast<double>(b.y) - p1.y;
     if (s.degree == 2) out.p[1] = snap(shifted(s.p[1], (ax + bx) / 2, (ay + by) / 2));
@@ -184,53 +208,76 @@ bool contour_vanishes(const std::vector<Segment>& segments, std::size_t first) {
     return segments.size() - first == 2 && segments[first].degree == 1 && segments[first + 1].degree == 1;
 }
 
-void append_contour(const Clipped& clipped, const Clipped::Contour& contour, const VertexMerge& merge,
-                    TwinCurves& twins, Scene& scene) {
-    const std::size_t first = scene.segments.size();
-    for (std::size_t i = contour.first; i < contour.end; ++i) {
-        const CanvasSegment& from = clipped.segments[i];
-        Segment to = snap_segment(from, merge);
-        twins.share(to);
-        for (int k = 0; k <= to.degree; ++k)
-            scene.stats.max_displacement = std::max(scene.stats.max_displacement, displacement(from.p[k], to.p[k]));
-        if (vanishes(to))
-            ++scene.stats.segments_zero;
-        else
-            scene.segments.push_back(to);
+/// Writes the scene's segments, contour by contour.
+class SegmentWriter {
+  public:
+    SegmentWriter(const VertexMerge& merge, Scene& scene) : merge_(merge), scene_(scene) {}
+
+    /// `joints`: where each segment of the closed contour starts.
+    void append(std::span<const CanvasSegment> contour, std::span<const std::uint32_t> joints) {
+        const std::size_t first = scene_.segments.size();
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            const std::uint32_t next = joints[i + 1 == contour.size() ? 0 : i + 1];
+            assert(merge_.at(next) == snap(contour[i].p[contour[i].degree]));
+            append(contour[i], {merge_.leader(joints[i]), merge_.leader(next)});
+        }
+        if (!contour_vanishes(scene_.segments, first)) return;
+        scene_.segments.resize(first);
+        scene_.stats.segments_zero += 2;
     }
-    if (!contour_vanishes(scene.segments, first)) return;
-    scene.segments.resize(first);
-    scene.stats.segments_zero += 2;
+    [[nodiscard]] double max_displacement() const { return displacement_.max(); }
+
+  private:
+    void append(const CanvasSegment& from, Ends ends) {
+        Segment to = snap_segment(from, merge_.at(ends.first), merge_.at(ends.last));
+        twins_.share(to, ends);
+        for (int k = 0; k < to.degree; ++k) // the last is the next segment's first
+            displacement_.add(from.p[k], to.p[k]);
+        if (vanishes(to))
+            ++scene_.stats.segments_zero;
+        else
+            scene_.segments.push_back(to);
+    }
+
+    const VertexMerge& merge_;
+    Scene& scene_;
+    TwinCurves twins_;
+    Displacement displacement_;
+};
+
+void write_shapes(const std::vector<RawShape>& raw, ContourClipper& clipper, const VertexMerge& merge,
+                  std::span<const std::uint32_t> joints, Scene& scene) {
+    scene.segments.clear();
+    scene.segments.reserve(joints.size());
+    scene.shapes.clear();
+    scene.shapes.reserve(raw.size());
+    SegmentWriter writer(merge, scene);
+    for (const RawShape& shape : raw) {
+        const auto first = static_cast<std::uint32_t>(scene.segments.size());
+        for (const CanvasContour& contour : shape.contours) {
+            const std::vector<CanvasSegment>& clipped = clipper.clip(contour);
+            writer.append(clipped, joints.first(clipped.size()));
+            joints = joints.subspan(clipped.size());
+        }
+        const auto count = static_cast<std::uint32_t>(scene.segments.size()) - first;
+        scene.shapes.push_back({first, count, shape.rule, shape.element});
+    }
+    scene.stats.max_displacement = std::max(scene.stats.max_displacement, writer.max_displacement());
 }
 
 } // namespace
 
 Status snap_shapes(const std::vector<RawShape>& raw, Scene& scene) {
-    Result<Clipped> result = clip_shapes(raw, scene);
-    if (!result) return result.error();
-    const Clipped& clipped = result.value();
-    if (clipped.segments.size() >= kNone)
-        return Error{ErrorClass::InvalidInput, diag::kSceneTooLarge, "more path segments than 32-bit indices hold", ""};
-
-    VertexMerge merge(clipped.segments.size());
-    for (const CanvasSegment& s : clipped.segments) // contours are closed: every joint is one segment's start
-        merge.add(snap(s.p[0]));
+    const std::size_t segments = count_segments(raw);
+    ContourClipper clipper(scene.extent);
+    VertexMerge merge(segments);
+    std::vector<std::uint32_t> joints;
+    joints.reserve(segments);
+    if (Status status = add_joints(raw, clipper, merge, joints, scene); !status) return status.error();
     merge.run();
-    scene.stats.vertices_in += clipped.segments.size();
+    scene.stats.vertices_in += joints.size();
     scene.stats.vertices_merged += merge.merged();
-
-    TwinCurves twins(clipped.segments.size());
-    scene.segments.clear();
-    scene.segments.reserve(clipped.segments.size());
-    scene.shapes.assign(raw.size(), Shape{});
-    auto contour = clipped.contours.begin();
-    for (std::uint32_t i = 0; i < raw.size(); ++i) {
-        Shape& shape = scene.shapes[i];
-        shape = {static_cast<std::uint32_t>(scene.segments.size()), 0, raw[i].rule, raw[i].element};
-        for (; contour != clipped.contours.end() && contour->shape == i; ++contour)
-            append_contour(clipped, *contour, merge, twins, scene);
-        shape.count = static_cast<std::uint32_t>(scene.segments.size()) - shape.first;
-    }
+    write_shapes(raw, clipper, merge, joints, scene);
     return {};
 }
 

@@ -3,52 +3,46 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "compiler/flat_index.h"
 #include "compiler/scene/scene.h"
 
 namespace fetexc {
 
-struct LatticePointHash {
-    std::size_t operator()(const LatticePoint& p) const noexcept;
-};
-
 /// Add every end point once per joint, in input order; run(); then ask for leaders. Points used by several joints
-/// become leaders before lone ones, so borders that are already shared exactly do not move.
+/// become leaders before lone ones, so borders that are already shared exactly do not move. Fewer than kNone joints,
+/// all within kLatticeLimit.
 class VertexMerge {
   public:
     /// points: how many there will be, about.
     explicit VertexMerge(std::size_t points);
-    VertexMerge(const VertexMerge&) = delete; // order_ points into vertices_
-    VertexMerge& operator=(const VertexMerge&) = delete;
-    void add(LatticePoint p);
+    /// The point's number; equal points have one.
+    std::uint32_t add(LatticePoint p);
     void run();
-    /// Where an added point goes: itself or the nearest leader closer than the merge distance.
-    [[nodiscard]] LatticePoint leader(LatticePoint p) const { return vertices_.at(p).leader; }
+    /// Where a point goes, both by number: to itself, or to the nearest leader closer than the merge distance.
+    [[nodiscard]] std::uint32_t leader(std::uint32_t point) const { return vertices_[point].leader; }
+    [[nodiscard]] LatticePoint at(std::uint32_t point) const { return vertices_[point].at; }
     /// Joints that move.
     [[nodiscard]] std::uint64_t merged() const { return merged_; }
 
   private:
     struct Vertex {
-        std::uint64_t uses = 0;
-        LatticePoint leader;
+        LatticePoint at;
+        std::uint32_t uses = 0;
+        std::uint32_t leader = kNone;
+        std::uint32_t next = kNone; ///< of a leader: the next in its cell, the first after the last
     };
-    using Vertices = std::unordered_map<LatticePoint, Vertex, LatticePointHash>;
-    void settle(LatticePoint p, Vertex& vertex);
+    void settle(std::uint32_t point);
+    void add_leader(std::uint32_t point);
 
-    Vertices vertices_;
-    std::vector<Vertices::value_type*> order_; ///< distinct points in input order; a hash map's nodes stay in place
-    struct Leader {
-        LatticePoint point;
-        std::uint32_t next = kNone; ///< in the same cell
+    /// Coordinates fit 32 bits: one number holds both.
+    struct Hash {
+        std::size_t operator()(std::uint64_t packed) const { return static_cast<std::size_t>(mixed_bits(packed)); }
     };
-    struct Chain {
-        std::uint32_t first = kNone, last = kNone;
-    };
-    void add_leader(LatticePoint p);
-    std::vector<Leader> leaders_;
-    std::unordered_map<LatticePoint, Chain, LatticePointHash> leaders_in_cell_;
+    std::vector<Vertex> vertices_; ///< distinct points in input order
+    FlatIndex<std::uint64_t, Hash> numbers_;
+    FlatIndex<std::uint64_t, Hash> last_in_cell_; ///< cell → the leader last added there
     std::uint64_t merged_ = 0;
 };
 

@@ -194,6 +194,50 @@ TEST(SvgThreads, aLimitBetweenTwoRunsOfOneStrokeIsExact) {
     expect_same(body, options, outcome(body, options, 1));
 }
 
+/// Filled shapes of every kind, some twice, enough for their reading to be spread over threads.
+std::string fills(int count) {
+    std::string body;
+    for (int i = 0; i < count; ++i) {
+        const std::string x = std::to_string(i % 50 * 2), y = std::to_string(i % 70), id = std::to_string(i);
+        body += "<path id='p" + id + "' d='M" + x + " " + y + "h3l1 4a2 1 10 0 1 3 1z'/><path d='M" + x +
+                " 3q4 1 3 7t1 2z'/>";
+        body += "<circle cx='" + x + "' cy='" + y + "' r='2'/><polygon points='" + y + " 1 4 " + x + " 9 9'/>";
+        body += "<rect x='" + x + "' width='3' height='4' rx='1'/><use href='#p" + id + "' y='1'/>";
+    }
+    return body;
+}
+
+TEST(SvgThreads, manyFillsAreTheSame) {
+    const std::string body = fills(200);
+    expect_same(body, {}, outcome(body, {}, 1));
+}
+
+TEST(SvgThreads, shapesReadBesideTheParserAreTheSame) {
+    std::string body; // no arcs: nothing can exceed the limit
+    for (int i = 0; i < 400; ++i)
+        body += "<path id='p" + std::to_string(i % 300) + "' d='M" + std::to_string(i % 90) + " 3q4 1 3 7.25t1 2z'/>" +
+                "<circle r='" + std::to_string(i % 7) + ".3' transform='translate(" + std::to_string(i) + ".7)'/>";
+    expect_same(body, {}, outcome(body, {}, 1));
+    const std::string broken = body + "<image href='data:image/svg+xml;utf8,&lt;svg'/><use href='#none'/>";
+    expect_same(broken, {}, outcome(broken, {}, 1));
+}
+
+TEST(SvgThreads, aLimitWhileShapesAreReadIsExact) {
+    const std::string body = "<defs>" + fills(200) + "</defs><path d='M0 0h9v9z'/>"; // read, but not drawn
+    SvgOptions options;
+    std::uint64_t low = 1, high = 4'000'000; // refused, loaded
+    while (high - low > 1) {
+        options.limits.segments = (low + high) / 2;
+        (outcome(body, options, 1).starts_with("error") ? low : high) = options.limits.segments;
+    }
+    for (const std::uint64_t segments : {std::uint64_t{1}, low / 2, low, high}) {
+        options.limits.segments = segments;
+        const std::string expected = outcome(body, options, 1);
+        EXPECT_EQ(expected.starts_with("error " + std::to_string(diag::kSvgTooManySegments)), segments <= low);
+        expect_same(body, options, expected);
+    }
+}
+
 TEST(SvgThreads, hostileDashesEndAtTheLimit) {
     std::string body;
     for (int i = 0; i < 2000; ++i)

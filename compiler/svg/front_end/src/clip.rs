@@ -64,7 +64,7 @@ impl Emitter<'_> {
     ) -> Result<(), Failure> {
         let Some(fill) = p.fill().filter(|_| p.is_visible()) else { return Ok(()) };
         let (path, origin) = self.recovery.path(p.data(), p.id());
-        let element = self.out.element(&origin.map_or_else(|| "clipPath".to_string(), |o| o.name));
+        let element = self.out.element(origin.as_ref().map_or("clipPath", |o| &o.name));
         let contours = fill_contours(&path, to_root, self.arc_tolerance);
         self.budget.charge(contours.iter().map(Vec::len).sum())?;
         if contours.iter().flatten().all(|b| b.is_finite()) {

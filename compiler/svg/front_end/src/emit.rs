@@ -254,9 +254,9 @@ impl<'a> Emitter<'a> {
         let element = self.out.element(&name);
         if p.paint_order() == usvg::PaintOrder::FillAndStroke {
             self.fill(p, &path, to_root, element)?;
-            self.stroke(p, &path, origin.as_ref(), to_root, element)
+            self.stroke(p, &path, origin.as_deref(), to_root, element)
         } else {
-            self.stroke(p, &path, origin.as_ref(), to_root, element)?;
+            self.stroke(p, &path, origin.as_deref(), to_root, element)?;
             self.fill(p, &path, to_root, element)
         }
     }

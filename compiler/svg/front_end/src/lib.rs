@@ -20,6 +20,7 @@ mod names;
 mod outline;
 mod outlines_ahead;
 mod paint;
+mod parallel;
 mod piece;
 mod raster;
 mod recover;

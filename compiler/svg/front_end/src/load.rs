@@ -217,12 +217,12 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     let lines = Lines::new(&text);
     let mut report = Report::new(fontdb.is_empty());
     report_dropped(&doc, &lines, &mut report);
-    let mut recovery = Recovery::new(&doc, &lines, settings.dpi, settings.max_segments)?;
-    let (tree, svgs) = convert(&doc, settings, fontdb)?;
+    let (mut recovery, converted) = Recovery::beside(&doc, &lines, settings, || convert(&doc, settings, fontdb))?;
+    let (tree, svgs) = converted?;
     budget.check_time()?;
     for svg in svgs {
         let text = plain_text(&svg, settings.max_bytes)?;
-        recovery.add(&parse_xml(&text, settings)?, &Lines::new(&text), settings.dpi, settings.max_segments)?;
+        recovery.add(&parse_xml(&text, settings)?, &Lines::new(&text), settings)?;
     }
     report.take_log();
     let side = tree.size().width().max(tree.size().height()) as f64;

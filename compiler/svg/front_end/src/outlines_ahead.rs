@@ -15,10 +15,8 @@ use crate::budget::{Budget, Failure};
 use crate::emit::key;
 use crate::geom::map_is_finite;
 use crate::outline::{outline_of, Outline};
+use crate::parallel::STACK;
 use crate::recover::Recovery;
-
-/// kurbo's recursion ends after some twenty levels; nothing here follows the nesting of the drawing.
-const STACK: usize = 8 << 20;
 
 /// A path of the tree (by its address) and the space it is drawn in.
 type Key = (usize, [u64; 6]);
@@ -141,7 +139,7 @@ fn run(jobs: &[Job<'_>], context: &Context, purse: &Budget) -> HashMap<Key, Done
 fn outline_job(job: &Job, context: &Context, budget: &mut Budget) -> Result<Done, Failure> {
     let before = budget.spent();
     let (path, origin) = context.recovery.find(job.path.data(), job.path.id());
-    let outline = outline_of(job.stroke, &path, origin, &job.to_root, context.tolerance, budget)?;
+    let outline = outline_of(job.stroke, &path, origin.as_deref(), &job.to_root, context.tolerance, budget)?;
     Ok(Done { outline, cost: budget.spent() - before })
 }
 
@@ -188,7 +186,8 @@ mod tests {
             let taken = made.take(p, &Affine::IDENTITY, &mut budget).ok().flatten().unwrap();
             let price = budget.spent() - before;
             let (path, origin) = recovery.find(p.data(), p.id());
-            let own = outline_of(p.stroke().unwrap(), &path, origin, &Affine::IDENTITY, TOLERANCE, &mut budget);
+            let own =
+                outline_of(p.stroke().unwrap(), &path, origin.as_deref(), &Affine::IDENTITY, TOLERANCE, &mut budget);
             assert_eq!(taken.contours, own.ok().unwrap().contours);
             assert_eq!(price, budget.spent() - before - price);
             assert!(price > 0);

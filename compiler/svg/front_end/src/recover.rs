@@ -2,8 +2,9 @@
 //! Exact geometry for what usvg stores in f32: shapes (with arcs), transforms, the canvas and its viewBox mapping.
 //! Everything is looked up by the f32 value usvg computes, so a wrong guess can't change more than an f32 rounding.
 
-use std::borrow::Cow;
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
 
 use kurbo::{Affine, Point};
 use usvg::roxmltree::{Document, Node};
@@ -12,8 +13,10 @@ use usvg::tiny_skia_path;
 use crate::budget::{Code, Failure};
 use crate::css::own_property;
 use crate::geom::Path;
+use crate::load::Settings;
 use crate::names::Lines;
-use crate::shapes::shape;
+use crate::parallel::try_map;
+use crate::shapes::{most_segments, shape};
 use crate::twin::{fingerprint, from_usvg};
 
 /// Where a shape came from and what usvg forgets about it.
@@ -26,8 +29,8 @@ pub struct Origin {
 }
 
 struct Known {
-    origin: Origin,
-    path: Path,
+    origin: Arc<Origin>,
+    path: Arc<Path>,
 }
 
 #[derive(Default)]
@@ -117,32 +120,55 @@ fn close(a: f64, b: f64, scale: f64) -> bool {
     (a - b).abs() <= 1e-5 * scale
 }
 
+/// A shorter document is read before a thread has started.
+const WORTH_THREADS: usize = 16 << 10;
+
 impl Recovery {
-    pub fn new(doc: &Document, lines: &Lines, dpi: f64, segments: u64) -> Result<Self, Failure> {
-        let mut out = Recovery { root: root_frame(&doc.root_element(), dpi), ..Recovery::default() };
-        out.add(doc, lines, dpi, segments)?;
-        Ok(out)
+    /// Of the drawing itself. `beside` (what usvg does) runs at the same time if no shape can exceed the limit of
+    /// segments, else afterwards: usvg gets no shapes that are refused here.
+    pub fn beside<R>(
+        doc: &Document,
+        lines: &Lines,
+        settings: &Settings,
+        beside: impl FnOnce() -> R,
+    ) -> Result<(Self, R), Failure> {
+        let mut out = Recovery { root: root_frame(&doc.root_element(), settings.dpi), ..Recovery::default() };
+        let result = out.add_beside(doc, lines, settings, beside)?;
+        Ok((out, result))
     }
 
-    /// The shapes and transforms of a document: the drawing itself, or an SVG image inside it.
-    pub fn add(&mut self, doc: &Document, lines: &Lines, dpi: f64, segments: u64) -> Result<(), Failure> {
-        let mut budget = usize::try_from(segments).unwrap_or(usize::MAX);
-        for node in doc.descendants().filter(Node::is_element) {
-            self.remember_transforms(&node, dpi);
+    /// The same of an SVG image inside it.
+    pub fn add(&mut self, doc: &Document, lines: &Lines, settings: &Settings) -> Result<(), Failure> {
+        self.add_beside(doc, lines, settings, || ())
+    }
+
+    fn add_beside<R>(
+        &mut self,
+        doc: &Document,
+        lines: &Lines,
+        settings: &Settings,
+        beside: impl FnOnce() -> R,
+    ) -> Result<R, Failure> {
+        let elements: Vec<Node> = doc.descendants().filter(Node::is_element).collect();
+        for node in &elements {
+            self.remember_transforms(node, settings.dpi);
             if node.tag_name().name() == "mask" {
-                self.remember_mask(&node);
-            }
-            if let Some(twin) = shape(&node, dpi, &mut budget) {
-                if let Some(path) = twin.f32_path.finish() {
-                    let known = Known { origin: origin(&node, lines), path: twin.exact.finish() };
-                    self.shapes.entry(fingerprint(&path)).or_default().push(known);
-                }
-            }
-            if budget == 0 {
-                return Err(Failure::new(Code::TooManySegments, format!("more than {segments} path segments")));
+                self.remember_mask(node);
             }
         }
-        Ok(())
+        let source = Source { elements, lines, settings };
+        let ahead = settings.threads > 1 && doc.input_text().len() >= WORTH_THREADS;
+        let (shapes, result) = if ahead && source.surely_within_limit() {
+            let (shapes, result) = source.shapes_on_threads(beside);
+            (shapes.map_or_else(|| source.shapes_in_order(), Ok)?, result)
+        } else {
+            let shapes = ahead.then(|| source.shapes_on_threads(|| ()).0).flatten();
+            (shapes.map_or_else(|| source.shapes_in_order(), Ok)?, beside())
+        };
+        for (fingerprint, known) in shapes {
+            self.shapes.entry(fingerprint).or_default().push(known);
+        }
+        Ok(result)
     }
 
     fn remember_transforms(&mut self, node: &Node, dpi: f64) {
@@ -187,27 +213,86 @@ impl Recovery {
     }
 
     /// The exact path and where it came from. `id` chooses among shapes of equal geometry.
-    pub fn find(&self, path: &tiny_skia_path::Path, id: &str) -> (Cow<'_, Path>, Option<&Origin>) {
+    pub fn find(&self, path: &tiny_skia_path::Path, id: &str) -> (Arc<Path>, Option<Arc<Origin>>) {
         match self.shapes.get(&fingerprint(path)).and_then(|known| best(known, id)) {
-            Some(known) => (Cow::Borrowed(&known.path), Some(&known.origin)),
-            None => (Cow::Owned(from_usvg(path)), None),
+            Some(known) => (known.path.clone(), Some(known.origin.clone())),
+            None => (Arc::new(from_usvg(path)), None),
         }
     }
 
     /// The same, counted.
-    pub fn path(&mut self, path: &tiny_skia_path::Path, id: &str) -> (Path, Option<Origin>) {
-        let (path, origin) = self.find(path, id);
-        let (path, origin) = (path.into_owned(), origin.cloned());
-        match origin {
+    pub fn path(&mut self, path: &tiny_skia_path::Path, id: &str) -> (Arc<Path>, Option<Arc<Origin>>) {
+        let found = self.find(path, id);
+        match found.1 {
             Some(_) => self.recovered += 1,
             None => self.kept_f32 += 1,
         }
-        (path, origin)
+        found
     }
 
     /// Where it came from, only.
     pub fn origin(&self, path: &tiny_skia_path::Path, id: &str) -> Option<&Origin> {
-        best(self.shapes.get(&fingerprint(path))?, id).map(|k| &k.origin)
+        best(self.shapes.get(&fingerprint(path))?, id).map(|k| k.origin.as_ref())
+    }
+}
+
+/// A document's elements and what is needed to read them.
+struct Source<'a, 'i> {
+    elements: Vec<Node<'a, 'i>>,
+    lines: &'a Lines,
+    settings: &'a Settings,
+}
+
+impl Source<'_, '_> {
+    /// Told without parsing: a segment takes more than half a byte, where arcs don't multiply them.
+    fn surely_within_limit(&self) -> bool {
+        let mut left = self.limit();
+        self.elements.iter().all(|node| {
+            let Some(most) = most_segments(node, self.settings.dpi) else { return false };
+            left = left.saturating_sub(most);
+            left > 0
+        })
+    }
+
+    fn limit(&self) -> usize {
+        usize::try_from(self.settings.max_segments).unwrap_or(usize::MAX)
+    }
+
+    /// A shape and its fingerprint; None for other elements, and when the budget of segments runs out (then it is 0).
+    fn shape(&self, node: &Node, budget: &mut usize) -> Option<(u64, Known)> {
+        let twin = shape(node, self.settings.dpi, budget)?;
+        let fingerprint = fingerprint(&twin.f32_path.finish()?);
+        let origin = Arc::new(origin(node, self.lines));
+        Some((fingerprint, Known { origin, path: Arc::new(twin.exact.finish()) }))
+    }
+
+    fn shapes_in_order(&self) -> Result<Vec<(u64, Known)>, Failure> {
+        let mut budget = self.limit();
+        let mut shapes = Vec::new();
+        for node in &self.elements {
+            shapes.extend(self.shape(node, &mut budget));
+            if budget == 0 {
+                let message = format!("more than {} path segments", self.settings.max_segments);
+                return Err(Failure::new(Code::TooManySegments, message));
+            }
+        }
+        Ok(shapes)
+    }
+
+    /// The same; None where that fails.
+    fn shapes_on_threads<R>(&self, beside: impl FnOnce() -> R) -> (Option<Vec<(u64, Known)>>, R) {
+        let left = AtomicUsize::new(self.limit());
+        let work = |node: &Node| {
+            let before = left.load(Ordering::Relaxed);
+            let mut after = before;
+            let shape = self.shape(node, &mut after);
+            let cost = before - after;
+            let take = |left: usize| left.checked_sub(cost).filter(|rest| *rest > 0);
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).ok()?;
+            Some(shape)
+        };
+        let (shapes, result) = try_map(&self.elements, self.settings.threads, work, beside);
+        (shapes.map(|all| all.into_iter().flatten().collect()), result)
     }
 }
 

@@ -5,7 +5,7 @@ use kurbo::Point;
 use usvg::roxmltree::Node;
 use usvg::tiny_skia_path::Rect;
 
-use crate::twin::{path_data, usvg_cubics, Twin};
+use crate::twin::{may_hold_arcs, path_data, usvg_cubics, Twin};
 
 /// A length in user units: usvg's f32 arithmetic and the exact one. None where it depends on context (%, em, ex).
 fn length(node: &Node, name: &str, dpi: f64) -> Option<Option<(f32, f64)>> {
@@ -142,6 +142,21 @@ fn charge_arcs(node: &Node, dpi: f64, budget: &mut usize) -> Option<()> {
     (*budget > 0).then_some(())
 }
 
+/// At least what `shape` charges, without reading paths; None if only reading can tell.
+pub fn most_segments(node: &Node, dpi: f64) -> Option<usize> {
+    let by_length = |name| node.attribute(name).map_or(0, |text| 2 * text.len());
+    match node.tag_name().name() {
+        "path" if node.attribute("d").is_some_and(may_hold_arcs) => None,
+        "path" => Some(by_length("d")),
+        "polyline" | "polygon" => Some(by_length("points")),
+        "circle" | "ellipse" | "rect" => {
+            let mut left = usize::MAX;
+            charge_arcs(node, dpi, &mut left).map(|()| usize::MAX - left)
+        }
+        _ => Some(0),
+    }
+}
+
 /// Both versions of a shape element; None for other elements, invalid shapes, lengths that depend on context, or when
 /// the budget of segments runs out (then it is 0).
 pub fn shape(node: &Node, dpi: f64, budget: &mut usize) -> Option<Twin> {
@@ -163,4 +178,36 @@ pub fn shape(node: &Node, dpi: f64, budget: &mut usize) -> Option<Twin> {
         "rect" => rect(node, dpi)?,
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use usvg::roxmltree::Document;
+
+    #[test]
+    fn most_segments_is_never_less_than_the_charge() {
+        let table = [
+            "<path d='M1 1zh1zh1zzv1z1 1h.1.1.1.1-1-1'/>",
+            "<path d='M0 0l1 1 1 1-1-1.5.5.5.5c1 1 1 1 1 1 1 1 1 1 1 1s1 1 1 1t1 1 1 1q1 1 1 1zt1 1z'/>",
+            "<path d='m1,1,1,1,1,1'/>",
+            "<path d=''/>",
+            "<path/>",
+            "<polygon points='1 1 2,2-3-3.4.4'/>",
+            "<polyline points='1 1'/>",
+            "<circle r='1e30'/>",
+            "<ellipse rx='1in' ry='2'/>",
+            "<rect width='1' height='2' rx='7'/>",
+            "<line x1='3'/>",
+            "<g/>",
+        ];
+        for text in table {
+            let doc = Document::parse(text).unwrap();
+            let mut left = 1_000_000_000;
+            shape(&doc.root_element(), 96.0, &mut left);
+            assert!(most_segments(&doc.root_element(), 96.0).unwrap() >= 1_000_000_000 - left, "{text}");
+        }
+        let arcs = Document::parse("<path d='M1 1A1 1 0 0 1 1e30 1'/>").unwrap();
+        assert_eq!(most_segments(&arcs.root_element(), 96.0), None);
+    }
 }

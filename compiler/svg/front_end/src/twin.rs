@@ -81,16 +81,16 @@ pub struct Twin {
 }
 
 pub fn fingerprint(path: &tiny_skia_path::Path) -> u64 {
+    let code = |verb: &PathVerb| match verb {
+        PathVerb::Move => 1u64,
+        PathVerb::Line => 2,
+        PathVerb::Quad => 3,
+        PathVerb::Cubic => 4,
+        PathVerb::Close => 5,
+    };
     let mut hasher = DefaultHasher::new();
-    for verb in path.verbs() {
-        let code = match verb {
-            PathVerb::Move => 0u8,
-            PathVerb::Line => 1,
-            PathVerb::Quad => 2,
-            PathVerb::Cubic => 3,
-            PathVerb::Close => 4,
-        };
-        hasher.write_u8(code);
+    for verbs in path.verbs().chunks(16) {
+        hasher.write_u64(verbs.iter().fold(0, |packed, verb| packed << 4 | code(verb)));
     }
     for p in path.points() {
         hasher.write_u64((p.x.to_bits() as u64) << 32 | p.y.to_bits() as u64);
@@ -217,9 +217,14 @@ fn expansion(raw: &PathSegment, cur: Point, after_close: bool) -> (usize, Option
     }
 }
 
+/// Whether path data has an arc; not asked of every byte in turn, so that the compiler can take many at once.
+pub fn may_hold_arcs(d: &str) -> bool {
+    d.as_bytes().chunks(64).any(|part| part.iter().fold(false, |found, b| found | (b | 0x20 == b'a')))
+}
+
 /// The `d` attribute. `budget` is the number of segments left; None when it runs out.
 pub fn path_data(d: &str, budget: &mut usize) -> Option<Twin> {
-    if d.contains(['a', 'A']) {
+    if may_hold_arcs(d) {
         return data_with_arcs(d, budget);
     }
     let mut twin = Twin::default();
