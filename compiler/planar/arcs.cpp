@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 
+#include "compiler/flat_index.h"
 #include "compiler/geometry/monotone.h"
 #include "compiler/geometry/precise.h"
 #include "compiler/parallel.h"
@@ -116,21 +116,20 @@ class Preparer {
     void add_ends() {
         struct PointHash {
             std::size_t operator()(const IntPoint& p) const {
-                return static_cast<std::size_t>(p.x) * 0x9E3779B97F4A7C15ull ^
-                       (static_cast<std::size_t>(p.y) + 0x7F4A7C15ull) * 0xC2B2AE3D27D4EB4Full;
+                return mixed_bits(static_cast<std::uint64_t>(p.x) * 0x9E3779B97F4A7C15u +
+                                  static_cast<std::uint64_t>(p.y));
             }
         };
-        std::unordered_map<IntPoint, std::uint32_t, PointHash> known;
-        known.reserve(2 * out_.curves.size());
+        FlatIndex<IntPoint, PointHash> known(out_.curves.size()); // contours are closed: about as many ends as curves
         const auto vertex_at = [&](IntPoint p) {
-            const auto [it, fresh] = known.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
+            const auto [number, fresh] = known.try_emplace(p, static_cast<std::uint32_t>(out_.vertices.size()));
             if (fresh) {
                 Vertex v;
                 v.x = static_cast<double>(p.x), v.y = static_cast<double>(p.y);
                 v.integral = true, v.point = p;
                 out_.vertices.push_back(v);
             }
-            return it->second;
+            return number;
         };
         ends_.reserve(out_.curves.size());
         out_.vertices.reserve(2 * out_.curves.size());
