@@ -10,28 +10,18 @@ import argparse
 import hashlib
 import os
 import pathlib
-import resource
 import shutil
 import subprocess
 import sys
 import tempfile
-import time
+
+import timing
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RULES = ("layers", "outside", "fans", "shared-ends", "certificate", "empty-texels", "direct-sweep", "first-sweep",
          "known-results", "hidden-fills")
 SLOW_RULES = ("certificate",)  # minutes on large drawings
 CHECK_SIZE = 32
-
-
-def run_timed(command):
-    """Returns (CPU seconds, wall seconds) of a process and what it waited for."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    start = time.monotonic()
-    subprocess.run([str(c) for c in command], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    wall = time.monotonic() - start
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, wall
 
 
 class Bench:
@@ -54,12 +44,7 @@ class Bench:
     @staticmethod
     def best(commands, repeat):
         """Smallest (CPU, wall) of each command, taking turns."""
-        found = [(float("inf"), float("inf"))] * len(commands)
-        for _ in range(repeat):
-            for k, command in enumerate(commands):
-                cpu, wall = run_timed(command)
-                found[k] = (min(found[k][0], cpu), min(found[k][1], wall))
-        return found
+        return [(min(c.cpu for c in costs), min(c.wall for c in costs)) for costs in timing.rounds(commands, repeat)]
 
 
 def check(bench, drawings):
