@@ -2,8 +2,10 @@
 /// Little-endian loads and stores, the same on every machine.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,10 @@ using ByteSpan = std::span<const std::uint8_t>;
 /// Little-endian integer at an offset. Precondition: offset + sizeof(T) ≤ bytes.size().
 template <class T> T load_le(ByteSpan bytes, std::size_t offset) {
     T value = 0;
+    if constexpr (std::endian::native == std::endian::little) { // one instruction; compilers don't always see it below
+        std::memcpy(&value, bytes.data() + offset, sizeof(T));
+        return value;
+    }
     for (std::size_t k = 0; k < sizeof(T); ++k)
         value = static_cast<T>(value | static_cast<T>(static_cast<T>(bytes[offset + k]) << (8 * k)));
     return value;

@@ -112,7 +112,7 @@ template <class T> void store_le(std::vector<std::uint8_t>& out, std::size_t at,
         out[at + k] = static_cast<std::uint8_t>(value >> (8 * k));
 }
 
-void store_entry(std::vector<std::uint8_t>& out, std::size_t entry, const Chunk& chunk, std::uint64_t offset) {
+void store_entry(std::vector<std::uint8_t>& out, std::size_t entry, const ChunkView& chunk, std::uint64_t offset) {
     store_le(out, entry, chunk.type);
     store_le(out, entry + kAtFlags, chunk.flags);
     store_le(out, entry + kAtRepresentation, chunk.representation);
@@ -138,24 +138,31 @@ std::string finding_id(FindingCode code) {
 }
 
 std::vector<std::uint8_t> write_container(const std::vector<Chunk>& chunks) {
+    std::vector<ChunkView> views;
+    for (const Chunk& c : chunks)
+        views.push_back({c.type, c.flags, c.representation, c.level, 0, c.payload});
+    return write_container_of_views(views);
+}
+
+std::vector<std::uint8_t> write_container_of_views(std::span<const ChunkView> chunks) {
     const std::size_t table_end = kHeaderBytes + chunks.size() * kChunkEntryBytes;
     std::uint64_t length = table_end;
-    for (const Chunk& chunk : chunks)
+    for (const ChunkView& chunk : chunks)
         length = align_up(length) + chunk.payload.size();
 
-    std::vector<std::uint8_t> out(static_cast<std::size_t>(length), 0);
+    std::vector<std::uint8_t> out;
+    out.reserve(static_cast<std::size_t>(length));
+    out.resize(table_end, 0);
     std::copy(kMagic.begin(), kMagic.end(), out.begin());
     store_le(out, kAtVersion, kVersionMajor);
     store_le(out, kAtVersion + 2, kVersionMinor);
     store_le(out, kAtChunkCount, static_cast<std::uint32_t>(chunks.size()));
     store_le(out, kAtLength, length);
-    std::uint64_t end = table_end;
     std::size_t entry = kHeaderBytes;
-    for (const Chunk& chunk : chunks) {
-        const std::uint64_t offset = align_up(end);
-        store_entry(out, entry, chunk, offset);
-        std::copy(chunk.payload.begin(), chunk.payload.end(), out.begin() + static_cast<std::ptrdiff_t>(offset));
-        end = offset + chunk.payload.size();
+    for (const ChunkView& chunk : chunks) {
+        out.resize(static_cast<std::size_t>(align_up(out.size())), 0);
+        store_entry(out, entry, chunk, out.size());
+        out.insert(out.end(), chunk.payload.begin(), chunk.payload.end());
         entry += kChunkEntryBytes;
     }
     store_le(out, kAtTableCrc, crc32c(ByteSpan(out).subspan(kHeaderBytes, table_end - kHeaderBytes)));

@@ -37,13 +37,13 @@ struct Chunk {
     std::vector<std::uint8_t> payload;
 };
 
-/// A chunk as read: payload points into the file's bytes.
+/// A chunk as read: payload points into the file's bytes. Or one to write whose payload is elsewhere.
 struct ChunkView {
     FourCc type = 0;
     std::uint16_t flags = 0;
     std::uint8_t representation = kWholeFile;
     std::uint8_t level = 0;
-    std::uint64_t offset = 0; ///< of the payload, from the start of the file
+    std::uint64_t offset = 0; ///< of the payload, from the start of the file; writing ignores it
     ByteSpan payload;
 };
 
@@ -55,6 +55,7 @@ struct ContainerView {
 /// The file's bytes; the same input always gives the same bytes. Preconditions: at most kMaxChunks chunks, fourccs of
 /// A–Z and 0–9, no two chunks with the same type, representation and level (the reader would refuse the result).
 std::vector<std::uint8_t> write_container(const std::vector<Chunk>& chunks);
+std::vector<std::uint8_t> write_container_of_views(std::span<const ChunkView> chunks);
 
 /// Checks every byte of the container (not what chunks mean). nullopt: out is complete and points into bytes. Safe on
 /// untrusted input: allocates at most one ChunkView per 32 bytes of input, never throws but for that allocation.

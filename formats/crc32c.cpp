@@ -3,6 +3,11 @@
 
 #include <array>
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#define FETEX_X86_CRC32C
+#include <nmmintrin.h>
+#endif
+
 namespace fetex {
 namespace {
 
@@ -25,9 +30,29 @@ constexpr Tables make_tables() {
 
 constexpr Tables kTables = make_tables();
 
+#ifdef FETEX_X86_CRC32C
+[[gnu::target("sse4.2")]] std::uint32_t crc32c_by_instruction(ByteSpan bytes) {
+    std::uint64_t c = 0xffffffffu;
+    std::size_t at = 0;
+    for (; at + 8 <= bytes.size(); at += 8)
+        c = _mm_crc32_u64(c, load_le<std::uint64_t>(bytes, at));
+    auto last = static_cast<std::uint32_t>(c);
+    for (; at < bytes.size(); ++at)
+        last = _mm_crc32_u8(last, bytes[at]);
+    return ~last;
+}
+#endif
+
 } // namespace
 
 std::uint32_t crc32c(ByteSpan bytes) {
+#ifdef FETEX_X86_CRC32C
+    if (__builtin_cpu_supports("sse4.2")) return crc32c_by_instruction(bytes);
+#endif
+    return crc32c_by_tables(bytes);
+}
+
+std::uint32_t crc32c_by_tables(ByteSpan bytes) {
     std::uint32_t c = 0xffffffffu;
     std::size_t at = 0;
     for (; at + 8 <= bytes.size(); at += 8) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <deque>
 
 #include "formats/validate.h"
 
@@ -128,10 +129,23 @@ Words fbt_header_words(const FbtTexture& t) {
     return words;
 }
 
-void append_fbt_chunks(std::vector<Chunk>& chunks, const FbtTexture& texture, std::uint8_t representation) {
-    chunks.push_back({kFbtHeader, kChunkCritical, representation, 0, to_bytes(fbt_header_words(texture))});
-    chunks.push_back({kFbtTexels, kChunkCritical, representation, 0, to_bytes(texture.texels)});
-    chunks.push_back({kFbtRecords, kChunkCritical, representation, 0, to_bytes(texture.records)});
+/// Payloads that aren't anywhere else as the file has them.
+using Payloads = std::deque<std::vector<std::uint8_t>>;
+
+ByteSpan as_bytes(const Words& words, Payloads& payloads) {
+    if constexpr (std::endian::native == std::endian::little)
+        return {reinterpret_cast<const std::uint8_t*>(words.data()), words.size() * 4};
+    return payloads.emplace_back(to_bytes(words));
+}
+
+void append_fbt_chunks(std::vector<ChunkView>& chunks, const FbtTexture& texture, std::uint8_t representation,
+                       Payloads& payloads) {
+    const auto append = [&](FourCc type, ByteSpan payload) {
+        chunks.push_back({type, kChunkCritical, representation, 0, 0, payload});
+    };
+    append(kFbtHeader, payloads.emplace_back(to_bytes(fbt_header_words(texture))));
+    append(kFbtTexels, as_bytes(texture.texels, payloads));
+    append(kFbtRecords, as_bytes(texture.records, payloads));
 }
 
 /// The three chunks of one FBT.
@@ -261,10 +275,11 @@ std::string to_valid_utf8(const std::string& text) {
 }
 
 std::vector<std::uint8_t> write_file(const FetexFile& file) {
-    std::vector<Chunk> chunks;
-    chunks.push_back({kMeta, 0, kWholeFile, 0, write_metadata(file.metadata)});
-    if (file.fbt) append_fbt_chunks(chunks, *file.fbt, 0);
-    return write_container(chunks);
+    Payloads payloads;
+    std::vector<ChunkView> chunks;
+    chunks.push_back({kMeta, 0, kWholeFile, 0, 0, payloads.emplace_back(write_metadata(file.metadata))});
+    if (file.fbt) append_fbt_chunks(chunks, *file.fbt, 0, payloads);
+    return write_container_of_views(chunks);
 }
 
 std::optional<Finding> read_file(FetexFile& out, ByteSpan bytes) {

@@ -30,7 +30,7 @@ std::vector<LatticeBox> shape_boxes(const Scene& scene) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Shape& shape = scene.shapes[i];
         for (std::uint32_t k = shape.first; k < shape.first + shape.count; ++k)
-            for (int c = 0; c <= scene.segments[k].degree; ++c)
+            for (int c = 0; c < scene.segments[k].degree; ++c) // contours are closed: each end is also a start
                 boxes[i] = hull(boxes[i], point_box(scene.segments[k].p[c]));
     }
     return boxes;

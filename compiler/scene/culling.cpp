@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "compiler/scene/clip_tree.h"
 #include "compiler/scene/paint.h"
 
 namespace fetexc {
@@ -103,8 +102,7 @@ void mark_hidden(Scene& scene, const std::vector<LatticeBox>& shapes, std::uint3
 
 } // namespace
 
-std::vector<bool> find_invisible_fills(Scene& scene) {
-    const std::vector<LatticeBox> shapes = shape_boxes(scene);
+std::vector<bool> find_invisible_fills(Scene& scene, const std::vector<LatticeBox>& shapes) {
     ClipBoxes clips(scene, shapes);
     std::vector<bool> drop(scene.nodes.size(), false);
     std::vector<std::pair<std::uint32_t, Context>> open; // group end, context of its children
@@ -122,8 +120,7 @@ std::vector<bool> find_invisible_fills(Scene& scene) {
     return drop;
 }
 
-std::vector<bool> find_hidden_fills(Scene& scene) {
-    const std::vector<LatticeBox> shapes = shape_boxes(scene);
+std::vector<bool> find_hidden_fills(Scene& scene, const std::vector<LatticeBox>& shapes) {
     std::vector<bool> hidden(scene.nodes.size(), false);
     mark_hidden(scene, shapes, 0, scene.root_end, hidden);
     for (const Mask& mask : scene.masks)

@@ -25,12 +25,6 @@ CanvasPoint clamped(const GuardBox& box, CanvasPoint p) {
     return {std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)};
 }
 
-bool hull_inside(const CanvasSegment& s, const GuardBox& box) {
-    for (int i = 0; i <= s.degree; ++i)
-        if (!contains(box, s.p[i])) return false;
-    return true;
-}
-
 bool handles_fit(const CanvasSegment& s) {
     for (int i = 1; i < s.degree; ++i)
         if (std::abs(s.p[i].x) > kHandleLimit || std::abs(s.p[i].y) > kHandleLimit) return false;

@@ -13,6 +13,13 @@ struct GuardBox {
     double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
+/// True if no control point lies outside, so that clipping changes nothing.
+[[nodiscard]] inline bool hull_inside(const CanvasSegment& s, const GuardBox& box) {
+    for (int i = 0; i <= s.degree; ++i)
+        if (!(s.p[i].x >= box.x0 && s.p[i].x <= box.x1 && s.p[i].y >= box.y0 && s.p[i].y <= box.y1)) return false;
+    return true;
+}
+
 [[nodiscard]] GuardBox guard_box(const Extent& extent);
 
 /// Appends the segment's parts inside the box unchanged and, for each part outside, a line along the border between the

@@ -9,10 +9,6 @@
 namespace fetexc {
 namespace {
 
-constexpr double kSaturation = 1e300; ///< keeps differences of saturated coordinates finite in double
-
-double scaled(double v, double scale) { return std::clamp(v * scale, -kSaturation, kSaturation); }
-
 std::int64_t smaller_side(double smaller, double larger) {
     const double steps = static_cast<double>(kLatticeSteps) * (smaller / larger);
     return std::max<std::int64_t>(1, std::llround(steps));
@@ -42,13 +38,6 @@ LatticeScale lattice_scale(const Extent& extent) {
 CanvasPoint to_canvas(const Extent& extent, double x, double y) {
     return {x * (extent.width / static_cast<double>(extent.lattice_w)),
             y * (extent.height / static_cast<double>(extent.lattice_h))};
-}
-
-CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale) {
-    CanvasSegment out = s;
-    for (int i = 0; i <= s.degree; ++i)
-        out.p[i] = {scaled(s.p[i].x, scale.sx), scaled(s.p[i].y, scale.sy)};
-    return out;
 }
 
 } // namespace fetexc

@@ -2,6 +2,8 @@
 /// Canvas space to lattice space (scene.h states both frames).
 #pragma once
 
+#include <algorithm>
+
 #include "compiler/result.h"
 #include "compiler/scene/scene_builder.h"
 
@@ -22,7 +24,15 @@ Result<Extent> make_extent(double width, double height);
 
 /// Scaled control points, still in double. A coordinate that overflows saturates at ±1e300 (the input itself is
 /// finite).
-[[nodiscard]] CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale);
+[[nodiscard]] inline CanvasSegment to_lattice_space(const CanvasSegment& s, LatticeScale scale) {
+    const double most = 1e300; // keeps differences of saturated coordinates finite in double
+    const auto scaled = [most](double v, double by) { return std::clamp(v * by, -most, most); };
+    CanvasSegment out;
+    out.degree = s.degree;
+    for (int i = 0; i <= s.degree; ++i)
+        out.p[i] = {scaled(s.p[i].x, scale.sx), scaled(s.p[i].y, scale.sy)};
+    return out;
+}
 
 /// Nearest lattice point; halves round away from zero. The point must lie within ±kLatticeLimit.
 [[nodiscard]] inline LatticePoint snap(CanvasPoint p) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/scene/clip_tree.h"
 #include "compiler/scene/compact.h"
 #include "compiler/scene/culling.h"
 #include "compiler/scene/lattice.h"
@@ -24,9 +25,10 @@ void count_layers(Scene& scene) {
 
 /// Needs the rebuilt tree: before, mask contents may lie inside groups they have nothing to do with.
 void cull(Scene& scene) {
-    const std::vector<bool> invisible = find_invisible_fills(scene);
+    const std::vector<LatticeBox> shapes = shape_boxes(scene);
+    const std::vector<bool> invisible = find_invisible_fills(scene, shapes);
     rebuild_tree(scene, invisible, true);
-    const std::vector<bool> hidden = find_hidden_fills(scene);
+    const std::vector<bool> hidden = find_hidden_fills(scene, shapes);
     if (std::find(hidden.begin(), hidden.end(), true) != hidden.end()) rebuild_tree(scene, hidden, true);
 }
 
@@ -37,9 +39,8 @@ SceneBuilder::SceneBuilder(double width, double height) {
     scene_.extent.height = height;
 }
 
-std::uint32_t SceneBuilder::add_shape(const std::vector<CanvasContour>& contours, FillRule rule,
-                                      std::uint32_t element) {
-    raw_.push_back({contours, rule, element});
+std::uint32_t SceneBuilder::add_shape(std::vector<CanvasContour> contours, FillRule rule, std::uint32_t element) {
+    raw_.push_back({std::move(contours), rule, element});
     return static_cast<std::uint32_t>(raw_.size() - 1);
 }
 

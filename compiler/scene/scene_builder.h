@@ -43,7 +43,7 @@ class SceneBuilder {
 
     /// Returns the shape index. Geometry far outside the canvas (beyond one larger side in any direction) is clipped to
     /// that guard box without changing any winding number inside it. NaN/inf coordinates make finish() fail.
-    std::uint32_t add_shape(const std::vector<CanvasContour>& contours, FillRule rule, std::uint32_t element);
+    std::uint32_t add_shape(std::vector<CanvasContour> contours, FillRule rule, std::uint32_t element);
     std::uint32_t add_element(std::string name);
     [[nodiscard]] std::uint32_t shape_count() const { return static_cast<std::uint32_t>(raw_.size()); }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -50,19 +49,29 @@ class ContourClipper {
     /// starts exactly where the one before it ends. Valid until the next call.
     const std::vector<CanvasSegment>& clip(const CanvasContour& contour) {
         clipped_.clear();
-        std::optional<CanvasPoint> start, pen;
+        if (contour.empty()) return clipped_;
+        CanvasPoint start, pen;
         for (const CanvasSegment& segment : contour) {
             const CanvasSegment s = to_lattice_space(segment, scale_);
-            if (!start) start = s.p[0];
-            if (pen && !same(*pen, s.p[0])) clip_to_guard_box(line(*pen, s.p[0]), box_, clipped_);
-            clip_to_guard_box(s, box_, clipped_);
+            if (&segment == contour.data())
+                start = s.p[0];
+            else if (!same(pen, s.p[0]))
+                append(line(pen, s.p[0]));
+            append(s);
             pen = s.p[s.degree];
         }
-        if (pen && !same(*pen, *start)) clip_to_guard_box(line(*pen, *start), box_, clipped_);
+        if (!same(pen, start)) append(line(pen, start));
         return clipped_;
     }
 
   private:
+    void append(const CanvasSegment& s) {
+        if (hull_inside(s, box_))
+            clipped_.push_back(s);
+        else
+            clip_to_guard_box(s, box_, clipped_);
+    }
+
     LatticeScale scale_;
     GuardBox box_;
     std::vector<CanvasSegment> clipped_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/scene/vertex_merge.h"
 
+#include <bit>
+
 #include "compiler/error_budget.h"
 
 namespace fetexc {
@@ -8,12 +10,10 @@ namespace {
 
 constexpr auto kReach = static_cast<std::int64_t>(budget::kMergeDistance);
 
-std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
 /// Much larger than the reach, so that most points look into one cell only; leaders stay few per cell, being apart.
-constexpr std::int64_t kCell = 8 * kReach;
+constexpr int kCellBits = std::countr_zero(8 * static_cast<std::uint64_t>(kReach));
 
-LatticePoint cell_of(LatticePoint p) { return {floor_div(p.x, kCell), floor_div(p.y, kCell)}; }
+LatticePoint cell_of(LatticePoint p) { return {p.x >> kCellBits, p.y >> kCellBits}; }
 
 std::uint64_t packed(LatticePoint p) {
     return std::uint64_t{static_cast<std::uint32_t>(p.x)} << 32 | static_cast<std::uint32_t>(p.y);
