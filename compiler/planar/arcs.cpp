@@ -2,6 +2,7 @@
 #include "compiler/planar/arcs.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "compiler/flat_index.h"
@@ -39,10 +40,12 @@ class ArcCutter {
         add_arc(curve, from, to, run);
     }
 
+    [[nodiscard]] std::size_t arcs() const { return arcs_.size(); }
+
     void join(ArcSet& set, PlanarStats& stats) {
         const std::uint32_t shift = static_cast<std::uint32_t>(set.vertices.size()) - known_;
         const auto renumbered = [&](std::uint32_t v) { return v < known_ ? v : v + shift; };
-        set.vertices.insert(set.vertices.end(), vertices_.begin(), vertices_.end());
+        std::move(vertices_.begin(), vertices_.end(), std::back_inserter(set.vertices));
         for (Arc& arc : arcs_) {
             arc.v0 = renumbered(arc.v0), arc.v1 = renumbered(arc.v1);
             set.arcs.push_back(arc);
@@ -151,6 +154,10 @@ class Preparer {
                                                runs_[k]);
             }
         });
+        std::size_t arcs = 0;
+        for (const ArcCutter& c : cutters)
+            arcs += c.arcs();
+        out_.arcs.reserve(arcs);
         for (ArcCutter& c : cutters)
             c.join(out_, stats_);
     }

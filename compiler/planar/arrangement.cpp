@@ -271,10 +271,9 @@ Found test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes, const B
 }
 
 /// Sorts the contacts by pairs, whatever order these came in; crossings become vertices of the set in that order.
-void settle(ArcSet& set, Found& found) {
+void settle(ArcSet& set, Found& found, unsigned threads) {
     std::vector<PairContact>& contacts = found.contacts;
-    std::sort(contacts.begin(), contacts.end(),
-              [](const PairContact& a, const PairContact& b) { return a.key() < b.key(); });
+    parallel_sort(contacts, threads, [](const PairContact& a, const PairContact& b) { return a.key() < b.key(); });
     set.vertices.reserve(set.vertices.size() + found.crossing_points.size());
     for (PairContact& c : contacts) {
         if (!c.fresh) continue;
@@ -376,7 +375,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         }
         if (shared.size() > known) continue;
 
-        settle(out.set, found);
+        settle(out.set, found, threads);
         pass.exact_comparisons = found.exact_comparisons;
         std::optional<Vertex> undecided;
         if (out.set.undecided != kNone)
