@@ -50,8 +50,13 @@ inline constexpr int kRefineBitsLimit = 4096;
 /// nothing.
 inline constexpr int kDescartesHalvings = 16;
 
-/// Bits of a root from which a crossing is certified: some bits of a double are left around it.
-inline constexpr int kNearRootBits = 46;
+/// Bits of the roots from which crossings are certified, first and second try; with some bits of a double left around
+/// them. Decides nothing.
+inline constexpr int kNearRootBits[] = {12, 46};
+
+/// Curve parameter: where roots near a stretch are looked for, its range is rounded outwards to so many bits. Decides
+/// nothing: what is beyond the stretch itself is left out.
+inline constexpr int kOuterRangeBits = 16;
 
 /// Relative to the size of the curves: a point enclosed no tighter by plain evaluation is narrowed by exact residuals
 /// (geometry/precise). Well-conditioned crossings are at about 2^-44.

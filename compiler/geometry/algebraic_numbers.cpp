@@ -56,6 +56,15 @@ class NarrowNumber {
     bool known_ = true;
 };
 
+/// A root of both within the range.
+bool common_root(const Polynomial& p, const Polynomial& q, const RationalRange& range) {
+    if (range.lo == range.hi) return evaluate(p, range.lo) == 0 && evaluate(q, range.lo) == 0;
+    const Polynomial factor = common_factor(p, q);
+    if (factor.size() < 2) return false;
+    const auto roots = bracket_roots(factor, range.lo, range.hi, budget::kDescartesHalvings);
+    return roots && !roots->empty();
+}
+
 } // namespace
 
 std::vector<std::pair<mpq_class, mpq_class>> isolate_roots(const Polynomial& p, const mpq_class& lo,
@@ -89,6 +98,8 @@ std::optional<int> compare_numbers(const AlgebraicNumber& a, const AlgebraicNumb
         if (p.range().hi < q.range().lo) return -1;
         if (q.range().hi < p.range().lo) return 1;
         if (p.exact() && q.exact()) return 0;
+        const RationalRange both{std::max(p.range().lo, q.range().lo), std::min(p.range().hi, q.range().hi)};
+        if (bits == budget::kRefineBits && common_root(a.polynomial, b.polynomial, both)) return 0;
     }
     return kernel::compare_numbers(a, b);
 }
@@ -104,6 +115,7 @@ std::optional<int> sign_at(const Polynomial& q, const AlgebraicNumber& a) {
         const RationalRange value = evaluate_over(q, p.range());
         if (value.lo > 0) return 1;
         if (value.hi < 0) return -1;
+        if (bits == budget::kRefineBits && common_root(a.polynomial, q, p.range())) return 0;
     }
     return kernel::sign_at(q, a);
 }

@@ -4,12 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace fetexc {
 namespace {
 
 void shift_left(mpz_class& v, std::size_t bits) { mpz_mul_2exp(v.get_mpz_t(), v.get_mpz_t(), bits); }
+
+/// Of the longest coefficient.
+std::size_t size_in_bits(const Polynomial& p) {
+    std::size_t size = 0;
+    for (const mpz_class& c : p)
+        size = std::max(size, mpz_sizeinbase(c.get_mpz_t(), 2));
+    return size;
+}
 
 /// Near the parameter: exact at its leading bits, because close roots leave nothing of a slope in doubles.
 double slope_at(const Polynomial& slope, const mpz_class& t, int bits) {
@@ -19,18 +28,6 @@ double slope_at(const Polynomial& slope, const mpz_class& t, int bits) {
     mpz_fdiv_q_2exp(rounded.get_mpz_t(), t.get_mpz_t(), static_cast<mp_bitcnt_t>(less));
     const std::size_t scale = slope.size() - 1;
     return to_double(evaluate_dyadic(slope, rounded, bits - less, scale), (bits - less) * static_cast<int>(scale));
-}
-
-/// Number of changes in the sequence of signs without zeros.
-int sign_changes(const std::vector<mpz_class>& values) {
-    int changes = 0, last = 0;
-    for (const mpz_class& v : values) {
-        const int s = sgn(v);
-        if (s == 0) continue;
-        changes += last != 0 && s != last;
-        last = s;
-    }
-    return changes;
 }
 
 /// lo, hi as integers over 2^bits.
@@ -63,7 +60,7 @@ std::vector<mpz_class> bernstein(const Polynomial& p, const DyadicRange& range) 
         shift_left(q[i], static_cast<std::size_t>(range.bits) * (n - i));
     for (std::size_t i = 0; i < n; ++i) { // to lo + x
         for (std::size_t k = n; k-- > i;)
-            q[k] += range.lo * q[k + 1];
+            mpz_addmul(q[k].get_mpz_t(), range.lo.get_mpz_t(), q[k + 1].get_mpz_t());
     }
     mpz_class power = 1;
     for (std::size_t i = 1; i <= n; ++i) // to lo + (hi − lo)·x
@@ -76,38 +73,147 @@ std::vector<mpz_class> bernstein(const Polynomial& p, const DyadicRange& range) 
     for (std::size_t j = 0; j <= n; ++j) {
         unsigned long falling = 1;
         for (std::size_t i = 0; i <= j; ++i) {
-            b[j] += q[i] * falling;
+            mpz_addmul_ui(b[j].get_mpz_t(), q[i].get_mpz_t(), falling);
             falling *= j - i;
         }
     }
     return b;
 }
 
+using Exact = std::vector<mpz_class>;
+
+std::optional<int> sign_of(const Exact& b, std::size_t i) { return sgn(b[i]); }
+std::size_t degree(const Exact& b) { return b.size() - 1; }
+
+/// De Casteljau at 1/2, without fractions.
+void halve(Exact q, Exact& left, Exact& right) {
+    const std::size_t n = degree(q);
+    left.resize(n + 1), right.resize(n + 1);
+    for (std::size_t r = 0; r <= n; ++r) {
+        mpz_mul_2exp(left[r].get_mpz_t(), q[0].get_mpz_t(), n - r);
+        mpz_mul_2exp(right[n - r].get_mpz_t(), q[n - r].get_mpz_t(), n - r);
+        for (std::size_t i = 0; i + r < n; ++i)
+            q[i] += q[i + 1];
+    }
+}
+
+/// The same times some power of two, each within the error.
+struct Rounded {
+    std::vector<double> b;
+    double error = 0;
+};
+
+std::optional<int> sign_of(const Rounded& r, std::size_t i) {
+    return std::fabs(r.b[i]) > r.error ? std::optional(r.b[i] > 0 ? 1 : -1) : std::nullopt;
+}
+std::size_t degree(const Rounded& r) { return r.b.size() - 1; }
+
+Rounded rounded(const Exact& exact) {
+    std::vector<std::pair<double, long>> parts;
+    long largest = std::numeric_limits<long>::min();
+    for (const mpz_class& v : exact) {
+        long exponent = 0;
+        const double mantissa = mpz_get_d_2exp(&exponent, v.get_mpz_t());
+        parts.emplace_back(mantissa, exponent);
+        if (mantissa != 0) largest = std::max(largest, exponent);
+    }
+    Rounded out{{}, 2 * budget::kUnitRoundoff}; // of values below 1, truncated
+    for (const auto& [mantissa, exponent] : parts)
+        out.b.push_back(mantissa == 0 ? 0 : std::ldexp(mantissa, static_cast<int>(exponent - largest)));
+    return out;
+}
+
+/// Each level averages, so errors add: one rounding a level, doubled.
+void halve(Rounded q, Rounded& left, Rounded& right) {
+    const std::size_t n = degree(q);
+    double size = 0;
+    for (const double v : q.b)
+        size = std::max(size, std::fabs(v));
+    left.error = right.error = q.error + 2 * static_cast<double>(n) * budget::kUnitRoundoff * size;
+    left.b.resize(n + 1), right.b.resize(n + 1);
+    for (std::size_t r = 0; r <= n; ++r) {
+        left.b[r] = q.b[0], right.b[n - r] = q.b[n - r];
+        for (std::size_t i = 0; i + r < n; ++i)
+            q.b[i] = (q.b[i] + q.b[i + 1]) / 2;
+    }
+}
+
+/// Changes in the sequence of signs without zeros. From two on it may be fewer than there are; none: unknown.
+template <class Coefficients> std::optional<int> sign_changes(const Coefficients& b) {
+    int changes = 0, last = 0;
+    bool certain = true;
+    for (std::size_t i = 0; i <= degree(b); ++i) {
+        const std::optional<int> s = sign_of(b, i);
+        certain = certain && s;
+        if (s.value_or(0) == 0) continue;
+        changes += last != 0 && *s != last;
+        last = *s;
+    }
+    return certain || changes > 1 ? std::optional(changes) : std::nullopt;
+}
+
+template <class Coefficients> int first_sign(const Coefficients& b) {
+    for (std::size_t i = 0; i <= degree(b); ++i) {
+        if (const int s = sign_of(b, i).value_or(0); s != 0) return s;
+    }
+    return 0;
+}
+
 /// The part of the range in which roots are looked for: [lo, lo + width] in units of 2^-bits.
-struct Piece {
-    std::vector<mpz_class> b;
+template <class Coefficients> struct Piece {
+    std::optional<Coefficients> b; ///< none: an end between two pieces, which is a root
     mpz_class lo;
     int bits = 0;
 };
 
-/// De Casteljau at 1/2, without fractions.
-void halve(const Piece& in, const mpz_class& width, Piece& left, Piece& right) {
-    const std::size_t n = in.b.size() - 1;
-    std::vector<mpz_class> q = in.b;
-    left.b.resize(n + 1), right.b.resize(n + 1);
-    for (std::size_t r = 0; r <= n; ++r) {
-        mpz_mul_2exp(left.b[r].get_mpz_t(), q[0].get_mpz_t(), n - r);
-        mpz_mul_2exp(right.b[n - r].get_mpz_t(), q[n - r].get_mpz_t(), n - r);
-        for (std::size_t i = 0; i + r < n; ++i)
-            q[i] += q[i + 1];
-    }
-    left.bits = right.bits = in.bits + 1;
-    left.lo = 2 * in.lo, right.lo = left.lo + width;
+RootBracket bracket_of(const Piece<Exact>& piece, const mpz_class& width, int /*bits*/) {
+    return {piece.lo, piece.lo + width, piece.bits, first_sign(*piece.b)};
 }
 
-int first_sign(const std::vector<mpz_class>& b) {
-    const auto it = std::find_if(b.begin(), b.end(), [](const mpz_class& v) { return v != 0; });
-    return it == b.end() ? 0 : sgn(*it);
+/// Halving on costs next to nothing here, as long as signs are known.
+RootBracket bracket_of(const Piece<Rounded>& piece, const mpz_class& width, int bits) {
+    RootBracket root{piece.lo, 0, piece.bits, first_sign(*piece.b)};
+    Rounded b = *piece.b, left, right;
+    for (; root.bits < bits; ++root.bits) {
+        halve(b, left, right);
+        const int middle = sign_of(right, 0).value_or(0);
+        if (middle == 0) break;
+        root.lo *= 2;
+        if (middle == root.sign_before) root.lo += width;
+        std::swap(b, middle == root.sign_before ? right : left);
+    }
+    root.hi = root.lo + width;
+    return root;
+}
+
+/// Without the range's ends. None: an unknown sign, or too many halvings.
+template <class Coefficients>
+std::optional<std::vector<RootBracket>> brackets_within(Coefficients b, const DyadicRange& range, int halvings) {
+    std::vector<RootBracket> roots;
+    const mpz_class width = range.hi - range.lo;
+    std::vector<Piece<Coefficients>> stack{{std::move(b), range.lo, range.bits}};
+    while (!stack.empty()) { // from left to right; each piece is open, its ends have been looked at
+        const Piece<Coefficients> piece = std::move(stack.back());
+        stack.pop_back();
+        if (!piece.b) {
+            roots.push_back({piece.lo, piece.lo, piece.bits, 0});
+            continue;
+        }
+        const std::optional<int> changes = sign_changes(*piece.b);
+        if (!changes) return {};
+        if (*changes == 1) roots.push_back(bracket_of(piece, width, range.bits + halvings));
+        if (*changes < 2) continue;
+        if (piece.bits - range.bits >= halvings) return {};
+        Coefficients left, right;
+        halve(*piece.b, left, right);
+        const std::optional<int> between = sign_of(right, 0);
+        if (!between) return {};
+        const mpz_class mid = 2 * piece.lo + width;
+        stack.push_back({std::move(right), mid, piece.bits + 1});
+        if (*between == 0) stack.push_back({{}, mid, piece.bits + 1});
+        stack.push_back({std::move(left), 2 * piece.lo, piece.bits + 1});
+    }
+    return roots;
 }
 
 } // namespace
@@ -125,14 +231,19 @@ double to_double(const mpz_class& v, int bits) {
 }
 
 mpz_class evaluate_dyadic(const Polynomial& p, const mpz_class& value, int bits, std::size_t scale) {
-    mpz_class sum = 0, term;
-    for (std::size_t i = p.size(); i-- > 0;) {
+    mpz_class sum, term;
+    if (p.empty()) return sum;
+    const auto unit = static_cast<mp_bitcnt_t>(bits);
+    const std::size_t longest = (std::max(mpz_sizeinbase(value.get_mpz_t(), 2), unit) + 1) * p.size() + size_in_bits(p);
+    for (mpz_class* v : {&sum, &term}) // growing step by step is most of the work otherwise
+        mpz_realloc2(v->get_mpz_t(), longest + unit * (scale + 1 - p.size()));
+    sum = p.back();
+    for (std::size_t i = p.size() - 1; i-- > 0;) {
         sum *= value;
-        mpz_mul_2exp(term.get_mpz_t(), p[i].get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * (p.size() - 1 - i));
+        mpz_mul_2exp(term.get_mpz_t(), p[i].get_mpz_t(), unit * (p.size() - 1 - i));
         sum += term;
     }
-    const std::size_t missing = p.empty() ? 0 : scale + 1 - p.size();
-    mpz_mul_2exp(sum.get_mpz_t(), sum.get_mpz_t(), static_cast<mp_bitcnt_t>(bits) * missing);
+    shift_left(sum, unit * (scale + 1 - p.size()));
     return sum;
 }
 
@@ -184,47 +295,25 @@ std::optional<std::vector<RootBracket>> bracket_roots(const Polynomial& p, const
                                                       int halvings) {
     const std::optional<DyadicRange> range = dyadic_range(lo, hi);
     if (!range) return {};
-    std::vector<RootBracket> roots;
-    if (p.size() < 2 || range->lo > range->hi) return roots;
-    const auto exact = [&](const mpz_class& at, int bits) { roots.push_back({at, at, bits, 0}); };
-    const mpz_class width = range->hi - range->lo;
-    std::vector<Piece> stack{{bernstein(p, *range), range->lo, range->bits}};
-    if (stack.back().b.front() == 0) exact(range->lo, range->bits);
-    if (width == 0) return roots;
-    const bool ends_in_root = stack.back().b.back() == 0;
-    while (!stack.empty()) { // from left to right; each piece is open, its ends have been looked at
-        const Piece piece = std::move(stack.back());
-        stack.pop_back();
-        if (piece.b.empty()) { // an end between two pieces
-            exact(piece.lo, piece.bits);
-            continue;
-        }
-        const int changes = sign_changes(piece.b);
-        if (changes == 0) continue;
-        if (changes == 1) {
-            roots.push_back({piece.lo, piece.lo + width, piece.bits, first_sign(piece.b)});
-            continue;
-        }
-        if (piece.bits - range->bits >= halvings) return {};
-        Piece left, right;
-        halve(piece, width, left, right);
-        const bool between = right.b.front() == 0;
-        Piece middle{{}, right.lo, right.bits};
-        stack.push_back(std::move(right));
-        if (between) stack.push_back(std::move(middle));
-        stack.push_back(std::move(left));
+    if (p.size() < 2 || range->lo > range->hi) return std::vector<RootBracket>{};
+    const Exact b = bernstein(p, *range);
+    std::optional<std::vector<RootBracket>> roots;
+    if (range->lo < range->hi) {
+        roots = brackets_within(rounded(b), *range, halvings);
+        if (!roots) roots = brackets_within(b, *range, halvings);
+        if (!roots) return {};
+        if (b.back() == 0) roots->push_back({range->hi, range->hi, range->bits, 0});
+    } else {
+        roots.emplace();
     }
-    if (ends_in_root) exact(range->hi, range->bits);
+    if (b.front() == 0) roots->insert(roots->begin(), {range->lo, range->lo, range->bits, 0});
     return roots;
 }
 
 /// Cauchy: below 1 + max |p[i]/p[n]|.
 mpz_class root_bound(const Polynomial& p) {
-    std::size_t largest = 0;
-    for (const mpz_class& c : p)
-        largest = std::max(largest, mpz_sizeinbase(c.get_mpz_t(), 2));
     mpz_class bound = 1;
-    shift_left(bound, largest - mpz_sizeinbase(p.back().get_mpz_t(), 2) + 2);
+    shift_left(bound, size_in_bits(p) - mpz_sizeinbase(p.back().get_mpz_t(), 2) + 2);
     return bound;
 }
 
@@ -262,21 +351,54 @@ void reduce(Residues& a, const Residues& b) {
     }
 }
 
-} // namespace
-
-/// A common factor of p and its derivative would be one modulo any prime that doesn't divide p's leading coefficient.
-bool certainly_square_free(const Polynomial& p) {
-    Residues a, b;
+Residues residues(const Polynomial& p) {
+    Residues out;
     for (const mpz_class& c : p)
-        a.push_back(mpz_fdiv_ui(c.get_mpz_t(), kPrime));
-    for (std::size_t i = 1; i < a.size(); ++i)
-        b.push_back(times(a[i], i));
-    if (b.empty() || a.back() == 0 || b.back() == 0) return false;
+        out.push_back(mpz_fdiv_ui(c.get_mpz_t(), kPrime));
+    return out;
+}
+
+/// A common factor would be one modulo any prime that doesn't divide both leading coefficients.
+bool certainly_coprime(const Polynomial& p, const Polynomial& q) {
+    Residues a = residues(p), b = residues(q);
+    if (a.empty() || b.empty() || a.back() == 0 || b.back() == 0) return false;
     while (b.size() > 1) {
         reduce(a, b);
         std::swap(a, b);
     }
     return !b.empty();
+}
+
+void divide_by_content(Polynomial& p) {
+    mpz_class content = 0;
+    for (const mpz_class& c : p)
+        content = gcd(content, c);
+    for (mpz_class& c : p)
+        mpz_divexact(c.get_mpz_t(), c.get_mpz_t(), content.get_mpz_t());
+}
+
+} // namespace
+
+bool certainly_square_free(const Polynomial& p) { return certainly_coprime(p, derivative(p)); }
+
+/// Euclid's algorithm, each remainder times whatever keeps it integral.
+Polynomial common_factor(const Polynomial& p, const Polynomial& q) {
+    if (certainly_coprime(p, q)) return {1};
+    Polynomial a = p, b = q;
+    while (!b.empty()) {
+        divide_by_content(b);
+        while (a.size() >= b.size()) {
+            const mpz_class lead = a.back();
+            const std::size_t shift = a.size() - b.size();
+            for (mpz_class& c : a)
+                c *= b.back();
+            for (std::size_t i = 0; i < b.size(); ++i)
+                a[i + shift] -= lead * b[i];
+            a = trimmed(std::move(a));
+        }
+        std::swap(a, b);
+    }
+    return a;
 }
 
 } // namespace fetexc

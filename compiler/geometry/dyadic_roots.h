@@ -43,4 +43,7 @@ mpz_class root_bound(const Polynomial& p);
 /// Decided modulo a prime: false may be wrong.
 bool certainly_square_free(const Polynomial& p);
 
+/// The greatest, without a common divisor of its coefficients; neither is 0.
+Polynomial common_factor(const Polynomial& a, const Polynomial& b);
+
 } // namespace fetexc

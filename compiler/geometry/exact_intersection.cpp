@@ -4,6 +4,7 @@
 /// of B at the real roots of R_b and B's isolated point, and all but one of them separate from it at some precision.
 /// Most pairs need none of that: no root in the stretches, or roots that pair up to crossings with a certificate.
 #include <algorithm>
+#include <cmath>
 
 #include "compiler/geometry/algebraic_kernel.h"
 #include "compiler/geometry/dyadic_roots.h"
@@ -51,36 +52,40 @@ std::optional<int> exact_end(const Interval& t) {
     return static_cast<int>(t.lo);
 }
 
-/// Rounded outwards.
-Interval enclosure(const RootBracket& root) {
-    return {widen_down(to_double(root.lo, root.bits)), widen_up(to_double(root.hi, root.bits))};
+/// Coarser, so that numbers are short, and wider, so that a root at an end has room for a certificate.
+RationalRange outer_range(const Stretch& s) {
+    const double scale = std::ldexp(1.0, budget::kOuterRangeBits);
+    return {mpq_class((std::floor(s.range.lo * scale) - 1) / scale),
+            mpq_class((std::ceil(s.range.hi * scale) + 1) / scale)};
 }
 
-/// A narrowed bracket with one unit more on each side, but within the wide one; rounded inwards.
-Interval container(const RootBracket& wide, const RootBracket& fine) {
-    const double unit = std::ldexp(1.0, -fine.bits);
-    const Interval all(widen_up(to_double(wide.lo, wide.bits)), widen_down(to_double(wide.hi, wide.bits)));
-    return {std::max(all.lo, to_double(fine.lo, fine.bits) - unit),
-            std::min(all.hi, to_double(fine.hi, fine.bits) + unit)};
-}
+RationalRange range_of(const Stretch& s) { return {mpq_class(s.range.lo), mpq_class(s.range.hi)}; }
 
 class ExactIntersection {
   public:
     ExactIntersection(const Stretch& a, const Stretch& b, std::span<const Contact> known)
         : a_(a), b_(b), known_(known), on_a_(*a.curve), on_b_(*b.curve), ra_(eliminate(*a.curve, *b.curve)) {
-        for (const Contact& k : known_) {
-            if (const auto end = exact_end(k.s)) ra_ = without_root(ra_, *end);
-        }
+        ra_ = without_known(std::move(ra_), &Contact::s);
     }
 
     ExactOutcome run(std::vector<ExactHit>& hits) {
         if (ra_.empty()) return ExactOutcome::CommonComponent;
-        const auto near_a = near_roots(ra_, a_);
-        if (near_a && near_a->empty()) return ExactOutcome::Done;
+        const RationalRange near_a = unknown_range(a_, &Contact::s), near_b = unknown_range(b_, &Contact::t);
+        auto on_a = bracket_roots(ra_, near_a.lo, near_a.hi, budget::kDescartesHalvings);
+        if (on_a && on_a->empty()) return ExactOutcome::Done;
         rb_ = eliminate(*b_.curve, *a_.curve);
-        const auto near_b = near_roots(rb_, b_);
-        if (near_b && near_b->empty()) return ExactOutcome::Done;
-        if (near_a && near_b && pair_up(*near_a, *near_b, hits)) return ExactOutcome::Done;
+        const Polynomial unknown = without_known(rb_, &Contact::t);
+        auto on_b = bracket_roots(unknown, near_b.lo, near_b.hi, budget::kDescartesHalvings);
+        if (on_b && on_b->empty()) return ExactOutcome::Done;
+        if (!on_a || !on_b) return exclude(hits); // perhaps not all roots are simple
+        for (const int bits : budget::kNearRootBits) {
+            for (RootBracket& root : *on_a)
+                narrow(root, ra_, bits);
+            for (RootBracket& root : *on_b)
+                narrow(root, unknown, bits);
+            if (pair_up(near_roots(*on_a, near_a, *a_.curve), near_roots(*on_b, near_b, *b_.curve), hits))
+                return ExactOutcome::Done;
+        }
         return exclude(hits);
     }
 
@@ -92,24 +97,40 @@ class ExactIntersection {
     }
 
   private:
-    /// The only root in a range of parameters, and the point there.
+    /// Without the exact parameters of known contacts.
+    [[nodiscard]] Polynomial without_known(Polynomial p, Interval Contact::*parameter) const {
+        for (const Contact& k : known_) {
+            if (const auto end = exact_end(k.*parameter)) p = without_root(std::move(p), *end);
+        }
+        return p;
+    }
+
+    /// The outer range, but no farther than known contacts.
+    [[nodiscard]] RationalRange unknown_range(const Stretch& stretch, Interval Contact::*parameter) const {
+        RationalRange range = outer_range(stretch);
+        for (const Contact& k : known_) {
+            if (const auto end = exact_end(k.*parameter)) (*end == 0 ? range.lo : range.hi) = *end;
+        }
+        return range;
+    }
+
+    /// A root in the middle of a range of parameters that holds no other, and the point there.
     struct NearRoot {
-        Interval container; ///< within the range; empty: unknown
+        Interval container; ///< open
         Interval x, y;      ///< encloses the point
     };
 
-    /// None: perhaps not all roots are simple.
-    static std::optional<std::vector<NearRoot>> near_roots(const Polynomial& p, const Stretch& stretch) {
-        const auto roots =
-            bracket_roots(p, mpq_class(stretch.range.lo), mpq_class(stretch.range.hi), budget::kDescartesHalvings);
-        if (!roots) return {};
+    static std::vector<NearRoot> near_roots(const std::vector<RootBracket>& roots, const RationalRange& range,
+                                            const Curve& c) {
+        std::vector<Interval> t; // exact
+        for (const RootBracket& root : roots)
+            t.emplace_back(to_double(root.lo, root.bits), to_double(root.hi, root.bits));
         std::vector<NearRoot> out;
-        for (const RootBracket& root : *roots) {
-            RootBracket fine = root;
-            narrow(fine, p, budget::kNearRootBits);
-            const Interval t = enclosure(fine);
-            out.push_back({container(root, fine), value_over(*stretch.curve, Axis::X, t),
-                           value_over(*stretch.curve, Axis::Y, t)});
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            const double from = i > 0 ? t[i - 1].hi : range.lo.get_d(),
+                         to = i + 1 < t.size() ? t[i + 1].lo : range.hi.get_d();
+            const double mid = t[i].mid(), radius = std::min(mid - from, to - mid);
+            out.push_back({{mid - radius, mid + radius}, value_over(c, Axis::X, t[i]), value_over(c, Axis::Y, t[i])});
         }
         return out;
     }
@@ -121,9 +142,9 @@ class ExactIntersection {
         for (const NearRoot& p : on_a) {
             for (const NearRoot& q : on_b) {
                 if (!p.x.overlaps(q.x) || !p.y.overlaps(q.y)) continue;
-                if (!(p.container.lo < p.container.hi && q.container.lo < q.container.hi)) return false;
                 const auto narrow = narrow_contact(*a_.curve, *b_.curve, {p.container, q.container});
                 if (!narrow) return false;
+                if (!overlap(narrow->s, range_of(a_)) || !overlap(narrow->t, range_of(b_))) continue;
                 found.push_back({to_interval(narrow->s), to_interval(narrow->t), *narrow});
             }
         }
@@ -148,7 +169,8 @@ class ExactIntersection {
     }
 
     [[nodiscard]] Roots roots_on_a(int bits) const {
-        return roots_of(ra_, mpq_class(a_.range.lo), mpq_class(a_.range.hi), bits);
+        const RationalRange range = outer_range(a_);
+        return roots_of(ra_, range.lo, range.hi, bits);
     }
 
     /// All real ones.
@@ -163,6 +185,7 @@ class ExactIntersection {
 
     /// False: more than one place is left.
     bool place(const RationalRange& s, const Roots& t, std::vector<ExactHit>& hits) const {
+        if (!overlap(s, range_of(a_))) return true;
         const PointRange p = on_a_.at(s);
         const bool isolated = singular_ && singular_->discriminant_sign() < 0 &&
                               overlap(p, {{singular_->x, singular_->x}, {singular_->y, singular_->y}});
@@ -172,9 +195,8 @@ class ExactIntersection {
         }
         if (isolated && !places.empty()) return false;
         if (places.size() > 2 || (places.size() == 2 && !at_double_point(*places[0], *places[1]))) return false;
-        const RationalRange stretch{mpq_class(b_.range.lo), mpq_class(b_.range.hi)};
         for (const RationalRange* range : places) {
-            if (overlap(*range, stretch) && !is_known(*range))
+            if (overlap(*range, range_of(b_)) && !is_known(*range))
                 hits.push_back({to_interval(s), to_interval(*range), {s, *range}});
         }
         return true;

@@ -33,7 +33,7 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
     Polynomial out(a.size() + b.size() - 1);
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (std::size_t j = 0; j < b.size(); ++j)
-            out[i + j] += a[i] * b[j];
+            mpz_addmul(out[i + j].get_mpz_t(), a[i].get_mpz_t(), b[j].get_mpz_t());
     }
     return trimmed(std::move(out));
 }
@@ -54,44 +54,54 @@ Polynomial minus(Polynomial p, const mpz_class& v) {
 mpz_class to_mpz(std::int64_t v) { return mpz_class(static_cast<long>(v)); }
 
 Polynomial power_basis(const Curve& c, Axis axis) {
-    const auto v = [&](std::size_t i) { return to_mpz(axis == Axis::X ? c.p[i].x : c.p[i].y); };
-    switch (c.degree) {
-    case 1:
-        return trimmed({v(0), v(1) - v(0)});
-    case 2:
-        return trimmed({v(0), 2 * (v(1) - v(0)), v(2) - 2 * v(1) + v(0)});
-    default:
-        return trimmed({v(0), 3 * (v(1) - v(0)), 3 * (v(2) - 2 * v(1) + v(0)), v(3) - 3 * v(2) + 3 * v(1) - v(0)});
-    }
+    const auto v = [&](std::size_t i) { return axis == Axis::X ? c.p[i].x : c.p[i].y; }; // below 2^43
+    std::array<std::int64_t, 4> k{v(0), v(1) - v(0)};
+    if (c.degree == 2) k = {v(0), 2 * (v(1) - v(0)), v(2) - 2 * v(1) + v(0)};
+    if (c.degree == 3) k = {v(0), 3 * (v(1) - v(0)), 3 * (v(2) - 2 * v(1) + v(0)), v(3) - 3 * v(2) + 3 * v(1) - v(0)};
+    std::size_t size = k.size();
+    while (size > 0 && k[size - 1] == 0)
+        --size;
+    Polynomial out(size);
+    for (std::size_t i = 0; i < size; ++i)
+        out[i] = static_cast<long>(k[i]);
+    return out;
 }
 
 namespace {
 
 mpz_class coefficient(const Polynomial& p, std::size_t i) { return i < p.size() ? p[i] : mpz_class(0); }
 
-Polynomial constant(const mpz_class& v) { return trimmed({v}); }
+Polynomial operator*(const mpz_class& factor, Polynomial p) {
+    for (mpz_class& c : p)
+        c *= factor;
+    return trimmed(std::move(p));
+}
 
-/// Bezout matrix entries of (f_i), (g_i) with f_0 = p_0 − X(s), g_0 = q_0 − Y(s): b(i,j) = f_i·g_j − f_j·g_i.
+/// Bezout matrix entries f_i·g_j − f_j·g_i of f(t) = p(t) − X(s) and g(t) = q(t) − Y(s). Only f_0 and g_0 hold s.
 struct Bezout {
-    Polynomial p, q, x, y;
-    [[nodiscard]] Polynomial f(std::size_t i) const {
-        return i == 0 ? constant(coefficient(p, 0)) - x : constant(coefficient(p, i));
+    Polynomial p, q, x, y; ///< x, y: −f_0, −g_0
+    Bezout(const Curve& a, const Curve& b) : p(power_basis(b, Axis::X)), q(power_basis(b, Axis::Y)) {
+        x = minus(power_basis(a, Axis::X), coefficient(p, 0));
+        y = minus(power_basis(a, Axis::Y), coefficient(q, 0));
     }
-    [[nodiscard]] Polynomial g(std::size_t i) const {
-        return i == 0 ? constant(coefficient(q, 0)) - y : constant(coefficient(q, i));
+    [[nodiscard]] Polynomial with_first(std::size_t i) const { return coefficient(q, i) * x - coefficient(p, i) * y; }
+    [[nodiscard]] mpz_class operator()(std::size_t i, std::size_t j) const {
+        return coefficient(p, i) * coefficient(q, j) - coefficient(p, j) * coefficient(q, i);
     }
-    [[nodiscard]] Polynomial operator()(std::size_t i, std::size_t j) const { return f(i) * g(j) - f(j) * g(i); }
 };
 
 } // namespace
 
 Polynomial eliminate(const Curve& a, const Curve& b) {
-    const Bezout m{power_basis(b, Axis::X), power_basis(b, Axis::Y), power_basis(a, Axis::X), power_basis(a, Axis::Y)};
+    const Bezout m(a, b);
     const std::size_t degree = std::max(m.p.size(), m.q.size()) - 1;
-    if (degree == 1) return m(1, 0);
-    if (degree == 2) return m(1, 0) * m(2, 1) - m(2, 0) * m(2, 0);
-    const Polynomial b00 = m(1, 0), b01 = m(2, 0), b02 = m(3, 0), b11 = m(2, 1) + m(3, 0), b12 = m(3, 1), b22 = m(3, 2);
-    return b00 * (b11 * b22 - b12 * b12) - b01 * (b01 * b22 - b12 * b02) + b02 * (b01 * b12 - b11 * b02);
+    const Polynomial b00 = m.with_first(1);
+    if (degree == 1) return b00;
+    const Polynomial b01 = m.with_first(2);
+    if (degree == 2) return m(2, 1) * b00 - b01 * b01;
+    const Polynomial b02 = m.with_first(3), b11 = minus(b02, -m(2, 1));
+    const mpz_class b12 = m(3, 1), b22 = m(3, 2);
+    return b00 * minus(b22 * b11, b12 * b12) - b01 * (b22 * b01 - b12 * b02) + b02 * (b12 * b01 - b11 * b02);
 }
 
 mpq_class evaluate(const Polynomial& p, const mpq_class& t) {

@@ -78,15 +78,15 @@ std::optional<Dyadic> narrow_root(const Polynomial& p, const Interval& t, int bi
 }
 
 RationalRange rational_range(const Dyadic& t) {
-    mpz_class one = 1;
-    mpz_mul_2exp(one.get_mpz_t(), one.get_mpz_t(), static_cast<mp_bitcnt_t>(t.bits));
-    mpq_class mid(t.value, one);
-    mid.canonicalize();
-    const mpq_class radius(t.radius);
-    return {mid - radius, mid + radius};
+    const int bits = t.bits + budget::kPreciseBits;
+    mpz_class mid = t.value;
+    mpz_mul_2exp(mid.get_mpz_t(), mid.get_mpz_t(), static_cast<mp_bitcnt_t>(budget::kPreciseBits));
+    const mpz_class radius = t.radius == 0 ? mpz_class(0) : mpz_class(to_dyadic(t.radius, bits) + 1);
+    return fetexc::rational_range({mid - radius, mid + radius, bits, 0});
 }
 
 bool inside(const Dyadic& t, const Interval& range) {
+    if (const Interval outer = range_of(t); range.lo <= outer.lo && outer.hi <= range.hi) return true;
     const RationalRange r = rational_range(t);
     return mpq_class(range.lo) <= r.lo && r.hi <= mpq_class(range.hi);
 }

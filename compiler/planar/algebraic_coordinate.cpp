@@ -66,6 +66,26 @@ std::optional<int> against_level(const AlgebraicCoordinate& c, std::int64_t leve
     return sign_at(minus(power_basis(*c.curve, c.axis), to_mpz(level)), c.parameter);
 }
 
+/// p(1 − t).
+Polynomial reversed(Polynomial p) {
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+        for (std::size_t k = p.size() - 1; k-- > i;)
+            p[k] += p[k + 1];
+    }
+    for (std::size_t i = 1; i < p.size(); i += 2)
+        p[i] = -p[i];
+    return p;
+}
+
+/// One coordinate polynomial, run through either way, at one parameter: what nearly all equal coordinates are, and much
+/// cheaper to tell than that of two images.
+bool mirrored(const AlgebraicCoordinate& a, const AlgebraicCoordinate& b) {
+    const Polynomial p = power_basis(*a.curve, a.axis), q = power_basis(*b.curve, b.axis);
+    const AlgebraicNumber& t = b.parameter;
+    if (p == q && compare_numbers(a.parameter, t) == 0) return true;
+    return p == reversed(q) && compare_numbers(a.parameter, {reversed(t.polynomial), 1 - t.hi, 1 - t.lo}) == 0;
+}
+
 } // namespace
 
 std::optional<int> compare(const AlgebraicCoordinate& a, const AlgebraicCoordinate& b) {
@@ -75,6 +95,7 @@ std::optional<int> compare(const AlgebraicCoordinate& a, const AlgebraicCoordina
         const std::optional<int> c = against_level(b, *a.level);
         return c ? std::optional(-*c) : std::nullopt;
     }
+    if (mirrored(a, b)) return 0;
     const std::optional<AlgebraicNumber> p = number_of(a), q = number_of(b);
     return p && q ? compare_numbers(*p, *q) : std::nullopt;
 }

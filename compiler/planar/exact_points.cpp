@@ -114,10 +114,14 @@ AlgebraicCoordinate algebraic_coordinate(const ArcSet& set, const Vertex& v, Axi
         out.level = axis == Axis::X ? v.point.x : v.point.y;
         return out;
     }
-    // On the curve along which the coordinate is simpler.
+    // On the curve along which the coordinate is simpler; a level or upright line knows it.
     const bool on_b =
         v.b != kNone && power_basis(set.curves[v.b], axis).size() < power_basis(set.curves[v.a], axis).size();
     out.curve = &set.curves[on_b ? v.b : v.a];
+    if (out.curve->along(axis).magnitude == 0) {
+        out.level = out.curve->along(axis).origin;
+        return out;
+    }
     out.parameter = parameter_of(set, v, on_b ? v.b : v.a, on_b ? v.t : v.s);
     return out;
 }

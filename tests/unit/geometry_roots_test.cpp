@@ -3,6 +3,8 @@
 /// multiple, or none.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "compiler/geometry/algebraic_kernel.h"
 #include "compiler/geometry/dyadic_roots.h"
 #include "tests/support/random.h"
@@ -71,6 +73,32 @@ TEST(Roots, AllRealOnesAreWithinTheBound) {
     }
 }
 
+TEST(Roots, BracketsShowChangesOfSign) {
+    int brackets = 0;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        Random random(seed);
+        const Polynomial p = random_polynomial(random);
+        const auto roots = bracket_roots(p, 0, 1, budget::kDescartesHalvings);
+        if (!roots) continue; // multiple, or closer than that
+        EXPECT_EQ(roots->size(), kernel::isolate_roots(p, 0, 1, 8).size()) << "seed " << seed;
+        for (const RootBracket& root : *roots) {
+            const RationalRange range = rational_range(root);
+            if (range.lo == range.hi) {
+                EXPECT_EQ(evaluate(p, range.lo), 0) << "seed " << seed;
+                continue;
+            }
+            // Other roots may be at its ends only: an odd number of them inside.
+            const auto inside = kernel::isolate_roots(p, range.lo, range.hi, 64);
+            EXPECT_EQ(std::count_if(inside.begin(), inside.end(),
+                                    [&](const auto& r) { return r.first != range.lo && r.second != range.hi; }),
+                      1)
+                << "seed " << seed;
+            ++brackets;
+        }
+    }
+    EXPECT_GT(brackets, 100);
+}
+
 TEST(Roots, CompareAsTheKernelSays) {
     int equal = 0, different = 0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -104,6 +132,32 @@ TEST(SquareFree, RepeatedFactorsAreSeen) {
     }
     EXPECT_GT(free, 50);
     EXPECT_LT(free, 290);
+}
+
+/// a divides b: a remainder of rationals is 0.
+bool divides(const Polynomial& a, const Polynomial& b) {
+    std::vector<mpq_class> rest(b.begin(), b.end());
+    for (; rest.size() >= a.size(); rest.pop_back()) {
+        const mpq_class factor = rest.back() / mpq_class(a.back());
+        for (std::size_t i = 0; i < a.size(); ++i)
+            rest[rest.size() - a.size() + i] -= factor * a[i];
+    }
+    return std::all_of(rest.begin(), rest.end(), [](const mpq_class& v) { return v == 0; });
+}
+
+TEST(CommonFactor, IsThePlantedOne) {
+    int planted = 0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        Random random(seed);
+        const Polynomial common = random.chance(0.7) ? random_polynomial(random) : Polynomial{mpz_class(1)},
+                         p = common * random_polynomial(random), q = common * random_polynomial(random),
+                         factor = common_factor(p, q);
+        ASSERT_FALSE(factor.empty());
+        EXPECT_TRUE(divides(common, factor)) << "seed " << seed;
+        EXPECT_TRUE(divides(factor, p) && divides(factor, q)) << "seed " << seed;
+        planted += common.size() > 1;
+    }
+    EXPECT_GT(planted, 100);
 }
 
 } // namespace
