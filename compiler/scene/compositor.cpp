@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include <tbb/concurrent_unordered_map.h>
+#include <tbb/concurrent_vector.h>
 
 #include "compiler/error_budget.h"
 #include "compiler/scene/clip_tree.h"
@@ -164,10 +166,16 @@ struct KeyHash {
 };
 
 /// Answers to sets of inside shapes, while there is room: the same sets come up all over the picture.
-constexpr std::size_t kRememberedSets = std::size_t{1} << 12; ///< per shard
+constexpr std::size_t kRememberedSets = std::size_t{1} << 16;
 using Inside = std::vector<std::uint32_t>;
-struct InsideHash {
+struct InsideEqual {
     using is_transparent = void;
+    bool operator()(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const noexcept {
+        return std::ranges::equal(a, b);
+    }
+};
+struct InsideHash {
+    using transparent_key_equal = InsideEqual;
     std::size_t operator()(std::span<const std::uint32_t> inside) const noexcept {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
         for (std::uint32_t shape : inside)
@@ -175,18 +183,8 @@ struct InsideHash {
         return static_cast<std::size_t>(h);
     }
 };
-struct InsideEqual {
-    using is_transparent = void;
-    bool operator()(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const noexcept {
-        return std::ranges::equal(a, b);
-    }
-};
-struct Memory {
-    std::mutex mutex;
-    std::unordered_map<Inside, ResultId, InsideHash, InsideEqual> results;
-};
 
-/// Interned results; ids are index·kShards + shard.
+/// Interned results.
 struct Entry {
     Stack stack;
     Rgba color; ///< the rounded colour when solid
@@ -194,9 +192,8 @@ struct Entry {
 };
 constexpr std::uint32_t kShards = 16;
 struct Shard {
-    mutable std::mutex mutex;
-    std::unordered_map<Key, std::uint32_t, KeyHash> index;
-    std::deque<Entry> entries; ///< entries stay in place, so they can be read without the lock
+    std::mutex mutex;
+    std::unordered_map<Key, ResultId, KeyHash> index;
 };
 
 /// Products that are a tie in exact arithmetic must not fall to either side by rounding.
@@ -243,19 +240,11 @@ struct Compositor::Impl {
             append_key(stack, key);
             entry.stack = std::move(stack);
         }
-        const auto number = static_cast<std::uint32_t>(KeyHash{}(key) >> 60) % kShards;
-        Shard& shard = shards[number];
+        Shard& shard = shards[(KeyHash{}(key) >> 60) % kShards];
         const std::lock_guard lock(shard.mutex);
-        const auto [it, fresh] =
-            shard.index.try_emplace(std::move(key), static_cast<std::uint32_t>(shard.entries.size()));
-        if (fresh) shard.entries.push_back(std::move(entry));
-        return it->second * kShards + number;
-    }
-
-    const Entry& entry(ResultId id) const {
-        const Shard& shard = shards[id % kShards];
-        const std::lock_guard lock(shard.mutex);
-        return shard.entries[id / kShards];
+        const auto [it, fresh] = shard.index.try_emplace(std::move(key), 0);
+        if (fresh) it->second = static_cast<ResultId>(entries.push_back(std::move(entry)) - entries.begin());
+        return it->second;
     }
 
     const Scene& scene;
@@ -264,32 +253,30 @@ struct Compositor::Impl {
     std::mutex builders_mutex;
     std::vector<std::unique_ptr<StackBuilder>> builders;
     std::array<Shard, kShards> shards;
-    std::array<Memory, kShards> memory;
+    tbb::concurrent_vector<Entry> entries; ///< by id; read without a lock, as `known` is
+    tbb::concurrent_unordered_map<Inside, ResultId, InsideHash> known;
 };
 
 Compositor::Compositor(const Scene& scene, const SkipRules& skip) : impl_(std::make_unique<Impl>(scene, skip)) {}
 Compositor::~Compositor() = default;
 
 ResultId Compositor::resolve(std::span<const std::uint32_t> inside) {
-    Memory& memory = impl_->memory[InsideHash{}(inside) >> 60];
     if (impl_->skip.known_results) {
-        const std::lock_guard lock(memory.mutex);
-        if (const auto it = memory.results.find(inside); it != memory.results.end()) return it->second;
+        if (const auto it = impl_->known.find(inside); it != impl_->known.end()) return it->second;
     }
     std::unique_ptr<StackBuilder> builder = impl_->take_builder();
     Stack stack = builder->build(inside);
     impl_->give_back(std::move(builder));
     const ResultId result = impl_->intern(std::move(stack));
-    const std::lock_guard lock(memory.mutex);
-    if (impl_->skip.known_results && memory.results.size() < kRememberedSets)
-        memory.results.try_emplace({inside.begin(), inside.end()}, result);
+    if (impl_->skip.known_results && impl_->known.size() < kRememberedSets)
+        impl_->known.emplace(Inside(inside.begin(), inside.end()), result);
     return result;
 }
 
-bool Compositor::is_solid(ResultId id) const { return impl_->entry(id).solid; }
+bool Compositor::is_solid(ResultId id) const { return impl_->entries[id].solid; }
 
 Rgba Compositor::color(ResultId id, CanvasPoint p) const {
-    const Entry& entry = impl_->entry(id);
+    const Entry& entry = impl_->entries[id];
     return entry.solid ? entry.color : stack_color(impl_->scene, entry.stack, p);
 }
 
