@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #if defined(__SANITIZE_THREAD__)
@@ -48,6 +51,17 @@ void parallel_for_chunks(std::size_t count, std::size_t chunk, unsigned threads,
     parallel_for((count + chunk - 1) / chunk, threads,
                  [&](std::size_t k) { body(k * chunk, std::min(count, (k + 1) * chunk)); });
 }
+
+/// Leaves new elements unwritten, for vectors that several threads fill.
+template <class T> struct UnwrittenAllocator : std::allocator<T> {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+    template <class U> struct rebind { using other = UnwrittenAllocator<U>; };
+    template <class U> void construct(U*) {}
+    template <class U, class... Args> void construct(U* p, Args&&... args) {
+        std::construct_at(p, std::forward<Args>(args)...);
+    }
+};
+template <class T> using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;
 
 /// `less` is a total order, or what it takes for equal can't be told apart: the sort isn't stable.
 template <class T, class Less> void parallel_sort(std::vector<T>& items, unsigned threads, const Less& less) {

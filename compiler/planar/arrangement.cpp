@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <numeric>
 #include <tuple>
 
 #include "compiler/diagnostics.h"
 #include "compiler/geometry/precise.h"
 #include "compiler/parallel.h"
-#include "compiler/planar/arc_order.h"
 #include "compiler/planar/box_pairs.h"
+#include "compiler/planar/edges.h"
 #include "compiler/planar/exact_points.h"
 
 namespace fetexc {
@@ -21,16 +20,6 @@ namespace {
 struct ArcShape {
     Interval x, y; ///< bounds
     ControlPolygon polygon;
-};
-
-/// A common point of two arcs.
-struct PairContact {
-    std::uint32_t a = 0, b = 0;
-    std::uint32_t vertex = 0;
-    std::uint32_t place : 31 = 0; ///< among the contacts of the pair
-    std::uint32_t fresh : 1 = 0;  ///< a crossing: a new vertex
-    Contact at;
-    [[nodiscard]] auto key() const { return std::tuple(a, b, std::uint32_t{place}); }
 };
 
 /// A vertex that couldn't be placed, and the pair it belongs to.
@@ -53,8 +42,8 @@ ArcShape shape_of(const ArcSet& set, const Arc& a) {
     return {hull(p.x, q.x), hull(p.y, q.y), set.stretch_of(a)};
 }
 
-std::vector<ArcShape> shapes_of(const ArcSet& set, unsigned threads) {
-    std::vector<ArcShape> shapes(set.arcs.size());
+UnwrittenVector<ArcShape> shapes_of(const ArcSet& set, unsigned threads) {
+    UnwrittenVector<ArcShape> shapes(set.arcs.size());
     parallel_for_chunks(shapes.size(), 512, threads, [&](std::size_t first, std::size_t end) {
         for (std::size_t k = first; k < end; ++k)
             shapes[k] = shape_of(set, set.arcs[k]);
@@ -68,7 +57,7 @@ bool is_line(const ArcSet& set, const Arc& a) { return set.curves[a.curve].degre
 
 class PairTest {
   public:
-    PairTest(const ArcSet& set, const std::vector<ArcShape>& shapes, const SkipRules& skip, Found& out)
+    PairTest(const ArcSet& set, std::span<const ArcShape> shapes, const SkipRules& skip, Found& out)
         : set_(set), shapes_(shapes), skip_(skip), out_(out) {}
 
     void operator()(const IdPair& pair) {
@@ -190,7 +179,7 @@ class PairTest {
     }
 
     const ArcSet& set_;
-    const std::vector<ArcShape>& shapes_;
+    std::span<const ArcShape> shapes_;
     const SkipRules& skip_;
     Found& out_;
     IdPair pair_;
@@ -199,7 +188,7 @@ class PairTest {
 };
 
 /// Boxes of the arcs that reach the canvas.
-std::vector<BoxItem> canvas_boxes(const Grid& grid, const std::vector<ArcShape>& shapes) {
+std::vector<BoxItem> canvas_boxes(const Grid& grid, std::span<const ArcShape> shapes) {
     std::vector<BoxItem> items;
     const double right = static_cast<double>(grid.right()), bottom = static_cast<double>(grid.bottom());
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
@@ -253,7 +242,7 @@ void append(Found& all, Found& part) {
         all.undecided = part.undecided;
 }
 
-Found test_pairs(const ArcSet& set, const std::vector<ArcShape>& shapes, const BoxPairs& boxes, unsigned threads,
+Found test_pairs(const ArcSet& set, std::span<const ArcShape> shapes, const BoxPairs& boxes, unsigned threads,
                  const SkipRules& skip) {
     std::vector<Found> parts(boxes.parts());
     parallel_for(parts.size(), threads, [&](std::size_t k) {
@@ -282,76 +271,6 @@ void settle(ArcSet& set, Found& found, unsigned threads) {
     }
 }
 
-// --- edges
-// ------------------------------------------------------------------------------------------------------------------------
-
-/// Vertices on each arc: its ends, and its contacts.
-class ArcVertices {
-  public:
-    ArcVertices(const ArcSet& set, const std::vector<PairContact>& contacts)
-        : set_(set), start_(set.arcs.size() + 1, 0) {
-        for (const PairContact& c : contacts)
-            ++start_[c.a + 1], ++start_[c.b + 1];
-        std::partial_sum(start_.begin(), start_.end(), start_.begin());
-        on_arc_.resize(start_.back());
-        std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-        for (const PairContact& c : contacts) {
-            on_arc_[next[c.a]++] = {c.vertex, c.at.s};
-            on_arc_[next[c.b]++] = {c.vertex, c.at.t};
-        }
-    }
-
-    void of(std::uint32_t arc, std::vector<OnArc>& out) const {
-        const Arc& a = set_.arcs[arc];
-        out.assign(on_arc_.begin() + start_[arc], on_arc_.begin() + start_[arc + 1]);
-        out.push_back({a.v0, a.t0});
-        out.push_back({a.v1, a.t1});
-    }
-
-  private:
-    const ArcSet& set_;
-    std::vector<std::uint32_t> start_;
-    std::vector<OnArc> on_arc_;
-};
-
-/// Each representative takes the best that is known of its point.
-void join_vertices(ArcSet& set, ArcOrder& order) {
-    const auto meet = [](const Interval& a, const Interval& b) {
-        const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
-        return m.lo <= m.hi ? m : a;
-    };
-    for (std::uint32_t k = 0; k < set.vertices.size(); ++k) {
-        const Vertex& v = set.vertices[k];
-        Vertex& r = set.vertices[order.representative(k)];
-        if (&v == &r || r.integral) continue;
-        if (v.integral)
-            r = v;
-        else
-            r.x = meet(r.x, v.x), r.y = meet(r.y, v.y);
-    }
-}
-
-/// Cuts the arcs into edges. Returns a vertex whose place on some arc couldn't be decided.
-std::optional<Vertex> cut_arcs(Arrangement& out, const std::vector<PairContact>& contacts, PlanarStats& stats) {
-    const ArcVertices vertices(out.set, contacts);
-    ArcOrder order(out.set, stats);
-    std::vector<OnArc> on_arc;
-    for (std::uint32_t arc = 0; arc < out.set.arcs.size(); ++arc) {
-        vertices.of(arc, on_arc);
-        order.sort(out.set.arcs[arc], on_arc);
-        for (std::size_t k = 0; k + 1 < on_arc.size(); ++k)
-            out.edges.push_back({arc, on_arc[k].t, on_arc[k + 1].t, on_arc[k].vertex, on_arc[k + 1].vertex});
-    }
-    for (Edge& e : out.edges)
-        e.va = order.representative(e.va), e.vb = order.representative(e.vb);
-    join_vertices(out.set, order);
-    if (order.conflict()) return out.set.vertices[*order.conflict()];
-    for (const Edge& e : out.edges) {
-        if (e.va == e.vb) return out.set.vertices[e.va];
-    }
-    return {};
-}
-
 } // namespace
 
 Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
@@ -363,7 +282,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         PlanarStats pass = {};
         Arrangement out;
         out.set = prepare_arcs(scene, grid, shared, pass, threads, skip);
-        const std::vector<ArcShape> shapes = shapes_of(out.set, threads);
+        const UnwrittenVector<ArcShape> shapes = shapes_of(out.set, threads);
         std::vector<BoxItem> boxes = canvas_boxes(grid, shapes);
         const std::uint64_t in_fans = skip.fans ? group_fans(out.set, boxes) : 0;
         Found found = test_pairs(out.set, shapes, BoxPairs(std::move(boxes)), threads, skip);
@@ -383,7 +302,7 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         else if (found.undecided)
             undecided = found.undecided->vertex;
         else
-            undecided = cut_arcs(out, found.contacts, pass);
+            undecided = cut_arcs(out, found.contacts, threads, pass);
         pass.box_pairs = found.box_pairs + in_fans;
         pass.pairs_certified = found.certified + in_fans, pass.pairs_exact = found.exact;
         pass.overlaps = shared.size(), pass.crossings = found.crossings;

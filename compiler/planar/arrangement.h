@@ -2,8 +2,7 @@
 /// All intersections of the arcs, and the arcs cut there: edges that meet in vertices only (DESIGN §5.4).
 #pragma once
 
-#include <vector>
-
+#include "compiler/parallel.h"
 #include "compiler/planar/arcs.h"
 #include "compiler/result.h"
 
@@ -18,7 +17,7 @@ struct Edge {
 
 struct Arrangement {
     ArcSet set;
-    std::vector<Edge> edges;
+    UnwrittenVector<Edge> edges;
 
     /// The edge as a stretch of its curve, outer parameter range.
     [[nodiscard]] Stretch stretch_of(const Edge& e) const {

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "compiler/diagnostics.h"
-#include "compiler/parallel.h"
 #include "compiler/planar/exact_points.h"
 
 namespace fetexc {
@@ -282,7 +281,7 @@ class PlanarMap::Builder {
     }
 
     /// Moves, and frees the source.
-    template <class T> void join(std::vector<T>& to, std::vector<T> EdgeWalk::*items) {
+    template <class T, class Allocator> void join(std::vector<T, Allocator>& to, std::vector<T> EdgeWalk::*items) {
         const std::vector<std::size_t> first = starts(items, to.size());
         to.resize(first.back());
         parallel_for(walks_.size(), threads_, [&](std::size_t c) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/geometry/precise.h"
+#include "compiler/parallel.h"
 #include "compiler/planar/algebraic_coordinate.h"
 #include "compiler/planar/arrangement.h"
 
@@ -122,9 +123,9 @@ class PlanarMap {
 
     Grid grid_;
     Arrangement arrangement_;
-    std::vector<GridNode> nodes_; ///< the arrangement's vertices, then crossings with grid lines
-    std::vector<LineCrossing> line_crossings_;
-    std::vector<SubEdge> sub_edges_;
+    UnwrittenVector<GridNode> nodes_; ///< the arrangement's vertices, then crossings with grid lines
+    UnwrittenVector<LineCrossing> line_crossings_;
+    UnwrittenVector<SubEdge> sub_edges_;
     std::vector<std::uint32_t> texel_start_; ///< CSR over texels, row-major
     std::vector<SideEdge> side_edges_;       ///< sorted by direction, texel
     std::vector<RowStep> steps_;             ///< sorted by row, line

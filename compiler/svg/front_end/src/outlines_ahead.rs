@@ -3,6 +3,7 @@
 //! the rest itself, so this decides nothing but speed: what fails here (a limit, a panic) the walk meets again, in its
 //! own order. Left to it: strokes inside masks and patterns.
 
+use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -71,7 +72,10 @@ pub fn outlines_ahead(tree: &usvg::Tree, frame: &Affine, context: &Context, budg
         children => list.children(children, &Affine::IDENTITY),
     };
     match listed {
-        Ok(()) => OutlinesAhead { done: run(&list.jobs, context, &list.budget) },
+        Ok(()) => {
+            list.jobs.sort_by_key(|job| Reverse(job.path.data().len())); // the long ones first: all threads end together
+            OutlinesAhead { done: run(&list.jobs, context, &list.budget) }
+        }
         Err(_) => OutlinesAhead::default(),
     }
 }
