@@ -14,27 +14,20 @@ using Int128 = __int128;
 
 constexpr std::size_t kChunk = 1024;
 
+/// A curve in one of its directions, the one with the lexicographically smaller control polygon.
 struct Use {
-    Curve curve;
+    int degree = 1;
+    std::int32_t winding = 1; ///< the shape's contour runs along (+1) or against (−1)
     std::uint32_t shape = 0;
-    std::int32_t winding = 1; ///< +1 along the curve as stored, −1 against
-};
+    std::array<IntPoint, 4> p{}; ///< unused ones are zero
 
-Curve reversed(const Curve& c) {
-    std::array<IntPoint, 4> p{};
-    for (int i = 0; i <= c.degree; ++i)
-        p[i] = c.p[c.degree - i];
-    return make_curve(c.degree, p);
-}
-
-/// One direction for each curve: the lexicographically smaller control polygon.
-void canonicalise(Use& use) {
-    const auto end = use.curve.p.begin() + use.curve.degree + 1;
-    if (std::lexicographical_compare(std::make_reverse_iterator(end), use.curve.p.rend(), use.curve.p.begin(), end)) {
-        use.curve = reversed(use.curve);
-        use.winding = -use.winding;
+    Use(const Curve& curve, std::uint32_t of) : degree(curve.degree), shape(of), p(curve.p) {
+        const auto end = p.begin() + degree + 1;
+        if (!std::lexicographical_compare(std::make_reverse_iterator(end), p.rend(), p.begin(), end)) return;
+        std::reverse(p.begin(), end);
+        winding = -1;
     }
-}
+};
 
 /// Right of, above or below the canvas: no winding number on the canvas changes there.
 bool irrelevant(const Curve& c, const Grid& grid) {
@@ -55,15 +48,14 @@ struct Collected {
         std::array<IntPoint, 4> p{};
         for (int i = 0; i <= segment.degree; ++i)
             p[i] = {segment.p[i].x * grid.kx, segment.p[i].y * grid.ky};
-        Use use{make_curve(segment.degree, p), shape, 1};
-        if (use.curve.degree < segment.degree) ++degree_reduced;
-        if (use.curve.degree == 1 && use.curve.first() == use.curve.last()) {
+        const Curve curve = make_curve(segment.degree, p);
+        if (curve.degree < segment.degree) ++degree_reduced;
+        if (curve.degree == 1 && curve.first() == curve.last()) {
             ++segments_null;
             return;
         }
-        if (skip.outside && irrelevant(use.curve, grid)) return;
-        canonicalise(use);
-        (use.curve.degree == 1 ? lines : bent).push_back(use);
+        if (skip.outside && irrelevant(curve, grid)) return;
+        (curve.degree == 1 ? lines : bent).emplace_back(curve, shape);
     }
 };
 
@@ -74,10 +66,11 @@ struct LineKey {
     [[nodiscard]] auto tie() const { return std::tie(dx, dy, offset); }
 };
 
-LineKey line_key(const Curve& c) {
-    const std::int64_t dx = c.p[1].x - c.p[0].x, dy = c.p[1].y - c.p[0].y, g = std::gcd(dx, dy);
+LineKey line_key(const Use& line) {
+    const auto& p = line.p;
+    const std::int64_t dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, g = std::gcd(dx, dy);
     LineKey k{dx / g, dy / g, 0};
-    k.offset = static_cast<Int128>(k.dx) * c.p[0].y - static_cast<Int128>(k.dy) * c.p[0].x;
+    k.offset = static_cast<Int128>(k.dx) * p[0].y - static_cast<Int128>(k.dy) * p[0].x;
     return k;
 }
 
@@ -88,11 +81,12 @@ class Merger {
 
     MergedCurves run(const Scene& scene) {
         collect(scene);
-        out_.curves.reserve(lines_.size() + bent_.size());
-        out_.runs.reserve(out_.curves.capacity()), out_.contributions.reserve(out_.curves.capacity());
+        const std::size_t uses = lines_.size() + bent_.size();
+        polygons_.reserve(uses), out_.runs.reserve(uses), out_.contributions.reserve(uses);
         merge_lines();
-        out_.first_bent = out_.curves.size();
+        out_.first_bent = polygons_.size();
         merge_bent();
+        make_curves();
         return std::move(out_);
     }
 
@@ -132,7 +126,7 @@ class Merger {
         std::vector<Line> order(lines_.size());
         parallel_for_chunks(lines_.size(), kChunk, threads_, [&](std::size_t first, std::size_t end) {
             for (std::size_t k = first; k < end; ++k)
-                order[k] = {line_key(lines_[k].curve), static_cast<std::uint32_t>(k)};
+                order[k] = {line_key(lines_[k]), static_cast<std::uint32_t>(k)};
         });
         parallel_sort(order, threads_, [](const Line& a, const Line& b) { return a.tie() < b.tie(); });
         std::vector<std::uint32_t> group;
@@ -149,7 +143,7 @@ class Merger {
         if (group.size() == 1) {
             const Use& u = lines_[group[0]];
             sums_.assign(1, {u.shape, u.winding});
-            return emit(u.curve);
+            return emit({u.degree, u.p});
         }
         struct Event {
             IntPoint at;
@@ -158,9 +152,9 @@ class Merger {
         };
         std::vector<Event> events;
         for (std::uint32_t k : group) {
-            const Use& u = lines_[k]; // canonical: first() < last()
-            events.push_back({u.curve.first(), u.shape, u.winding});
-            events.push_back({u.curve.last(), u.shape, -u.winding});
+            const Use& u = lines_[k]; // p[0] < p[1]
+            events.push_back({u.p[0], u.shape, u.winding});
+            events.push_back({u.p[1], u.shape, -u.winding});
         }
         std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
         sums_.clear();
@@ -169,7 +163,7 @@ class Merger {
             for (; i < events.size() && events[i].at == at; ++i)
                 add_contribution(sums_, events[i].shape, events[i].winding);
             normalise(sums_);
-            if (i < events.size() && !sums_.empty()) emit(make_curve(1, {at, events[i].at, IntPoint{}, IntPoint{}}));
+            if (i < events.size() && !sums_.empty()) emit({1, {at, events[i].at}});
         }
         stats_.pieces_shared += group.size() - 1;
     }
@@ -177,7 +171,7 @@ class Merger {
     void merge_bent() {
         std::vector<std::uint32_t> order(bent_.size());
         std::iota(order.begin(), order.end(), 0);
-        const auto polygon = [&](std::uint32_t k) { return std::tie(bent_[k].curve.degree, bent_[k].curve.p); };
+        const auto polygon = [&](std::uint32_t k) { return std::tie(bent_[k].degree, bent_[k].p); };
         parallel_sort(order, threads_, [&](const std::uint32_t& a, const std::uint32_t& b) {
             return std::tuple_cat(polygon(a), std::tie(a)) < std::tuple_cat(polygon(b), std::tie(b));
         });
@@ -188,15 +182,28 @@ class Merger {
                 add_contribution(sums_, bent_[order[i]].shape, bent_[order[i]].winding);
             stats_.pieces_shared += i - begin - 1;
             normalise(sums_);
-            if (!sums_.empty()) emit(bent_[order[begin]].curve);
+            if (!sums_.empty()) emit({bent_[order[begin]].degree, bent_[order[begin]].p});
         }
     }
 
-    void emit(const Curve& curve) {
-        out_.curves.push_back(curve);
+    struct Polygon {
+        int degree = 1;
+        std::array<IntPoint, 4> p{};
+    };
+
+    void emit(const Polygon& polygon) {
+        polygons_.push_back(polygon);
         out_.runs.push_back(
             {static_cast<std::uint32_t>(out_.contributions.size()), static_cast<std::uint32_t>(sums_.size())});
         out_.contributions.insert(out_.contributions.end(), sums_.begin(), sums_.end());
+    }
+
+    void make_curves() {
+        out_.curves.resize(polygons_.size());
+        parallel_for_chunks(polygons_.size(), kChunk, threads_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t k = first; k < end; ++k)
+                out_.curves[k] = make_curve(polygons_[k].degree, polygons_[k].p);
+        });
     }
 
     const Grid& grid_;
@@ -204,6 +211,7 @@ class Merger {
     const SkipRules& skip_;
     PlanarStats& stats_;
     std::vector<Use> lines_, bent_;
+    std::vector<Polygon> polygons_; ///< of the merged curves
     std::vector<Contribution> sums_;
     MergedCurves out_;
 };
