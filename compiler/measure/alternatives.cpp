@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compiler/diagnostics.h"
+#include "compiler/measure/bilinear.h"
 #include "compiler/measure/pictures.h"
 #include "compiler/parallel.h"
 
@@ -50,34 +51,6 @@ double coverage(const TwoColors& colors, const Rgba& mix) {
     return ((mix.r - p.r) * r + (mix.g - p.g) * g + (mix.b - p.b) * b + (mix.a - p.a) * a) /
            (r * r + g * g + b * b + a * a);
 }
-
-/// Between the four texels around a point.
-class Interpolation {
-  public:
-    Interpolation(GridSize size, TexturePoint p) {
-        place(p.u * size.width - 0.5, size.width, column_, s_);
-        place(p.v * size.height - 0.5, size.height, row_, t_);
-        width_ = size.width;
-    }
-    [[nodiscard]] double of(std::span<const std::uint8_t> values) const {
-        const auto texel = [&](int i, int j) {
-            return static_cast<double>(values[std::size_t{row_[j]} * width_ + column_[i]]);
-        };
-        const double upper = texel(0, 0) + (texel(1, 0) - texel(0, 0)) * s_;
-        const double lower = texel(0, 1) + (texel(1, 1) - texel(0, 1)) * s_;
-        return upper + (lower - upper) * t_;
-    }
-
-  private:
-    static void place(double position, std::uint32_t size, std::uint32_t (&index)[2], double& offset) {
-        const double last = size - 1.0, base = std::clamp(std::floor(position), 0.0, last);
-        offset = std::clamp(position - base, 0.0, 1.0);
-        index[0] = static_cast<std::uint32_t>(base);
-        index[1] = static_cast<std::uint32_t>(std::min(base + 1, last));
-    }
-    std::uint32_t column_[2] = {}, row_[2] = {}, width_ = 0;
-    double s_ = 0, t_ = 0;
-};
 
 Result<std::unique_ptr<Picture>> bitmap(const Truth& truth, GridSize size, unsigned threads) {
     const auto picture = truth.picture(size, threads);
@@ -162,7 +135,16 @@ FieldPicture::FieldPicture(GridSize size, std::vector<std::uint8_t> values, Rgba
     assert(values_.size() == std::size_t{size.width} * size.height);
 }
 
-Rgba FieldPicture::at(TexturePoint p) const { return Interpolation(size_, p).of(values_) >= 127.5 ? above_ : below_; }
+Rgba FieldPicture::at(TexturePoint p) const {
+    const TexelWeights x(p.u, size_.width), y(p.v, size_.height);
+    const auto along_row = [&](int j) {
+        const auto texel = [&](int i) {
+            return static_cast<double>(values_[std::size_t{y.index[j]} * size_.width + x.index[i]]);
+        };
+        return texel(0) + (texel(1) - texel(0)) * x.offset;
+    };
+    return along_row(0) + (along_row(1) - along_row(0)) * y.offset >= 127.5 ? above_ : below_;
+}
 
 Result<std::unique_ptr<Picture>> make_alternative(const Truth& truth, Alternative kind, GridSize size, unsigned threads,
                                                   double range) {
