@@ -109,9 +109,13 @@ class Integrator {
 
 } // namespace
 
+Status check_size(GridSize pixels) {
+    if (pixels.width >= 1 && pixels.height >= 1 && pixels.width <= kMaxSize && pixels.height <= kMaxSize) return {};
+    return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 pixels on each side", ""};
+}
+
 Result<std::vector<Rgba>> exact_picture(const Scene& scene, Compositor& compositor, GridSize pixels, unsigned threads) {
-    if (pixels.width < 1 || pixels.height < 1 || pixels.width > kMaxSize || pixels.height > kMaxSize)
-        return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 pixels on each side", ""};
+    if (Status fits = check_size(pixels); !fits) return fits.error();
     PlanarStats stats;
     const Grid grid = make_grid(scene.extent, pixels.width, pixels.height);
     const Result<PlanarMap> map = PlanarMap::build(scene, grid, threads, stats);

@@ -9,6 +9,9 @@
 
 namespace fetexc::measure {
 
+/// 1 … 16384 pixels on each side.
+Status check_size(GridSize pixels);
+
 Result<std::vector<Rgba>> exact_picture(const Scene& scene, Compositor& compositor, GridSize pixels, unsigned threads);
 
 } // namespace fetexc::measure

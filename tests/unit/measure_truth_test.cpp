@@ -6,18 +6,14 @@
 
 #include "compiler/measure/truth.h"
 #include "tests/support/known_shapes.h"
+#include "tests/support/measured.h"
 #include "tests/support/random.h"
 
 namespace fetexc::measure {
 namespace {
 
 using test::Random;
-
-std::unique_ptr<Truth> truth_of(const Scene& scene, unsigned threads = 1) {
-    Result<std::unique_ptr<Truth>> truth = Truth::of(scene, threads);
-    if (!truth) throw std::runtime_error(truth.error().message);
-    return std::move(truth).value();
-}
+using test::truth_of;
 
 std::vector<Rgba> picture_of(const Scene& scene, GridSize pixels, unsigned threads = 1) {
     return truth_of(scene)->picture(pixels, threads).value();
