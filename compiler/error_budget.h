@@ -151,8 +151,8 @@ inline constexpr double kBoundaryChordError = 0.125;
 /// Colour channel: neighbouring points of a pixel's line that differ by more are looked at for a jump between them.
 inline constexpr double kJump = 1.0 / 64;
 
-/// Halvings to find it (2^-12 of 1/8 of a pixel), and the share of the difference that has to stay together all along.
-inline constexpr int kJumpHalvings = 12;
+/// Halvings to find it (2^-8 of 1/8 of a pixel), and the share of the difference that has to stay together all along.
+inline constexpr int kJumpHalvings = 8;
 inline constexpr double kJumpShare = 0.7;
 
 /// Colour channel: a pixel whose centre differs by less from the mean of its corners is taken for linear.

@@ -26,6 +26,17 @@ template <class Holds> double bisect(const Holds& holds) {
     return (lo + hi) / 2;
 }
 
+/// Directions to look in, from the normal: both along it first.
+constexpr double kDiagonal = 0.70710678118654752;
+constexpr std::array<WidthPoint, 8> kStar{{{1, 0},
+                                           {-1, 0},
+                                           {0, 1},
+                                           {0, -1},
+                                           {kDiagonal, kDiagonal},
+                                           {kDiagonal, -kDiagonal},
+                                           {-kDiagonal, kDiagonal},
+                                           {-kDiagonal, -kDiagonal}}};
+
 double distance(WidthPoint a, WidthPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 double distance_to_segment(WidthPoint p, WidthPoint a, WidthPoint b) {
@@ -59,6 +70,10 @@ bool PictureBoundary::takes_for_first(const WidthPoint& p, ResultId first, Resul
     const Rgba color = subject_.picture.at(at);
     return color_distance(color, subject_.truth.color(first, at)) <=
            color_distance(color, subject_.truth.color(second, at));
+}
+
+bool PictureBoundary::on_canvas(WidthPoint p) const {
+    return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= subject_.truth.height();
 }
 
 double PictureBoundary::change_between(std::size_t a, std::size_t b) const {
@@ -158,24 +173,27 @@ double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
     return best;
 }
 
-/// Outwards on both sides until the colour goes over to the edge's other result. Steps that double from far below a
-/// pixel, and never exceed a quarter of one.
+/// Outwards in rings until the colour goes over to the edge's other result: on both sides along the normal, and near
+/// the point in six more directions (around a corner the picture may be met there only). Steps that double from far
+/// below a pixel, and never exceed a quarter of one.
 double PictureBoundary::distance_along_normal(const VisibleEdge& e, WidthPoint p, WidthPoint normal) const {
     const bool first = takes_for_first(p, e.left, e.right);
     const ResultId own = first ? e.left : e.right, other = first ? e.right : e.left;
-    const auto at = [&](double d) { return WidthPoint{p.x + d * normal.x, p.y + d * normal.y}; };
-    const auto on_canvas = [&](WidthPoint q) {
-        return q.x >= 0 && q.x <= 1 && q.y >= 0 && q.y <= subject_.truth.height();
+    const auto along = [&](std::size_t k, double d) {
+        const WidthPoint way = kStar[k];
+        return WidthPoint{p.x + d * (normal.x * way.x - normal.y * way.y),
+                          p.y + d * (normal.y * way.x + normal.x * way.y)};
     };
     const double pixel = grid_.pixel_side();
     double from = 0, step = budget::kBoundaryFirstStep * pixel;
     while (from < subject_.reach) {
         const double to = std::min(from + step, subject_.reach);
+        const std::size_t directions = to < 1.5 * pixel ? kStar.size() : 2;
         double found = kInfinity;
-        for (const double side : {-1.0, 1.0}) {
-            if (!on_canvas(at(side * to)) || takes_for_first(at(side * to), own, other)) continue;
+        for (std::size_t k = 0; k < directions; ++k) {
+            if (!on_canvas(along(k, to)) || takes_for_first(along(k, to), own, other)) continue;
             const double t =
-                bisect([&](double s) { return takes_for_first(at(side * (from + s * (to - from))), own, other); });
+                bisect([&](double s) { return takes_for_first(along(k, from + s * (to - from)), own, other); });
             found = std::min(found, from + t * (to - from));
         }
         if (found < kInfinity) return found;

@@ -24,6 +24,7 @@ class PictureBoundary {
         WidthPoint place;
     };
     static Distances summary(const std::vector<std::vector<Sample>>& rows);
+    [[nodiscard]] bool on_canvas(WidthPoint p) const;
     [[nodiscard]] double change_between(std::size_t a, std::size_t b) const;
     [[nodiscard]] bool takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const;
     [[nodiscard]] std::size_t changes_around(std::uint32_t i, std::uint32_t j, std::array<WidthPoint, 4>& out) const;

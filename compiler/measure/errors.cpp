@@ -24,7 +24,7 @@ double squared_error(const Rgba& a, const Rgba& b) {
     return sum;
 }
 
-Result<double> psnr_of(const Subject& subject, const SampleGrid& grid, unsigned lines) {
+Result<double> psnr_of(const Subject& subject, const SampleGrid& grid, unsigned intervals) {
     const GridSize n = grid.pixels();
     const Result<std::vector<Rgba>> exact = subject.truth.picture(n, subject.threads);
     if (!exact) return exact.error();
@@ -41,7 +41,7 @@ Result<double> psnr_of(const Subject& subject, const SampleGrid& grid, unsigned 
             const std::size_t k = grid.index(i, j);
             Rgba mean = subject.picture.at({(i + 0.5) * w, (j + 0.5) * h});
             if (grid.crossed(k) || !is_linear(corners, mean))
-                mean = supersampled(subject.picture, {i * w, j * h, w, h}, corners, lines);
+                mean = supersampled(subject.picture, {i * w, j * h, w, h}, intervals);
             rows[row] += squared_error(mean, exact.value()[k]);
             corners[0] = corners[1], corners[2] = corners[3];
         }
@@ -135,7 +135,7 @@ Result<std::vector<SizeErrors>> measure(const Truth& truth, const Picture& pictu
         out.to_truth = boundary.to_truth();
         out.to_picture = boundary.to_picture(out.edges_without_contrast);
         out.away = color_error(subject, grid);
-        out.islands = find_islands(grid);
+        out.islands = find_islands(subject, grid);
         all.push_back(out);
     }
     return all;

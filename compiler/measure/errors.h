@@ -19,9 +19,10 @@
 /// supersampled), against the exactly integrated truth; over r, g, b, composited over black and over white.
 /// *Colour error.* Largest difference of a channel (premultiplied RGBA), at sample points farther than a texel from
 /// every visible edge.
-/// *Islands.* Connected sets of sample points (four neighbours) of one class. Lost: one of the truth no point of which,
-/// nor any of the eight around one, has its class in the picture. False: the same the other way round. Wrong colours
-/// farther than `reach` from all edges are colour errors, not islands.
+/// *Islands.* Connected sets of sample points (four neighbours) of one class. Lost: one of the truth that the picture
+/// has nowhere: neither at its points nor around them, within a pixel (asked at 32 × 32 places), is its class nearer
+/// than the one that the picture has at the point. False: one of the picture whose result the truth has nowhere, asked
+/// at the same places. Wrong colours farther than `reach` from all edges are colour errors, not islands.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,8 @@ struct MeasureOptions {
     std::vector<GridSize> sizes;     ///< output sizes in pixels, 1 … 16384 on each side
     double reach = 1.5;              ///< texels
     double min_contrast = 4.0 / 255; ///< largest difference of a channel across an edge
-    unsigned supersample = 8;        ///< lines through a pixel that an edge crosses (measure/pixel_means.h)
-    unsigned threads = 0;            ///< never changes the figures
+    unsigned supersample = 8; ///< intervals of a line through a pixel that an edge crosses (measure/pixel_means.h)
+    unsigned threads = 0;     ///< never changes the figures
 };
 
 /// In width units.

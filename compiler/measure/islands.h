@@ -7,6 +7,6 @@
 namespace fetexc::measure {
 
 /// Lost and false islands (measure/errors.h defines them).
-[[nodiscard]] Islands find_islands(const SampleGrid& grid);
+[[nodiscard]] Islands find_islands(const Subject& subject, const SampleGrid& grid);
 
 } // namespace fetexc::measure

@@ -41,10 +41,29 @@ bool is_linear(const PixelCorners& corners, const Rgba& center) {
     return contrast(mean, center) < budget::kLinearPixel;
 }
 
-Rgba supersampled(const Picture& picture, const PixelArea& area, const PixelCorners& corners, unsigned lines) {
-    const double across = color_distance(corners[0], corners[1]) + color_distance(corners[2], corners[3]),
-                 down = color_distance(corners[0], corners[2]) + color_distance(corners[1], corners[3]);
-    const bool level = across >= down;
+namespace {
+
+/// The picture changes more along u than along v.
+bool changes_across(const Picture& picture, const PixelArea& area) {
+    std::array<std::array<Rgba, 3>, 3> c;
+    for (std::size_t y = 0; y < 3; ++y) {
+        for (std::size_t x = 0; x < 3; ++x)
+            c[y][x] = picture.at({area.u + 0.5 * static_cast<double>(x) * area.width,
+                                  area.v + 0.5 * static_cast<double>(y) * area.height});
+    }
+    double across = 0, down = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t n = 0; n < 2; ++n)
+            across += color_distance(c[k][n], c[k][n + 1]), down += color_distance(c[n][k], c[n + 1][k]);
+    }
+    return across >= down;
+}
+
+} // namespace
+
+Rgba supersampled(const Picture& picture, const PixelArea& area, unsigned intervals) {
+    const bool level = changes_across(picture, area);
+    const unsigned lines = 2 * intervals;
     Rgba sum;
     for (unsigned l = 0; l < lines; ++l) {
         const double side = (l + 0.5) / lines;
@@ -52,15 +71,15 @@ Rgba supersampled(const Picture& picture, const PixelArea& area, const PixelCorn
             return picture.at({area.u + (level ? t : side) * area.width, area.v + (level ? side : t) * area.height});
         };
         Rgba last = at(0);
-        for (unsigned k = 1; k <= lines; ++k) {
-            const double from = (k - 1.0) / lines, to = static_cast<double>(k) / lines;
+        for (unsigned k = 1; k <= intervals; ++k) {
+            const double from = (k - 1.0) / intervals, to = static_cast<double>(k) / intervals;
             const Rgba next = at(to);
             const double share = jump_between(at, from, last, to, next);
             add(sum, last, share), add(sum, next, 1 - share);
             last = next;
         }
     }
-    const double weight = 1.0 / (static_cast<double>(lines) * lines);
+    const double weight = 1.0 / (static_cast<double>(lines) * intervals);
     return {sum.r * weight, sum.g * weight, sum.b * weight, sum.a * weight};
 }
 

@@ -13,11 +13,10 @@ struct PixelArea {
     double u = 0, v = 0, width = 0, height = 0; ///< texture space
 };
 
-/// Parallel lines through the pixel, `lines` of them, across the direction in which its corners differ most. On each,
-/// the trapezoid rule between lines + 1 points; between two that differ, the jump is looked for by bisection, so that a
-/// hard edge costs no accuracy. What lies between two points of a line unseen is missed.
-[[nodiscard]] Rgba supersampled(const Picture& picture, const PixelArea& area, const PixelCorners& corners,
-                                unsigned lines);
+/// 2·intervals parallel lines through the pixel, in the direction in which it changes most between 3 × 3 points. On
+/// each, the trapezoid rule over the intervals; where the ends of one differ, the jump is looked for by bisection, so
+/// that a hard edge costs no accuracy. What lies between two neighbouring points of a line unseen is missed.
+[[nodiscard]] Rgba supersampled(const Picture& picture, const PixelArea& area, unsigned intervals);
 
 /// The centre alone says what the mean is: the picture is as good as linear in the pixel.
 [[nodiscard]] bool is_linear(const PixelCorners& corners, const Rgba& center);
