@@ -141,4 +141,26 @@ inline constexpr double kDistanceAccuracy = 1e-6;
 /// curve in double loses. Asking for less makes the iteration wander in its own rounding noise.
 inline constexpr double kParameterStop = 0x1p-52;
 
+// What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
+
+/// Halvings of the stretch of about a pixel in which a picture's class changes: 2^-24 of a pixel.
+inline constexpr int kBoundaryHalvings = 24;
+
+/// Pixels: first step of the search along an edge's normal.
+inline constexpr double kBoundaryFirstStep = 0x1p-14;
+
+/// Pixels: what a boundary drawn by lines from change to change is off by where it bends with a radius of a pixel or
+/// more.
+inline constexpr double kBoundaryChordError = 0.125;
+
+/// Colour channel: neighbouring points of a pixel's line that differ by more are looked at for a jump between them.
+inline constexpr double kJump = 1.0 / 64;
+
+/// Halvings to find it (2^-8 of 1/8 of a pixel), and the share of the difference that has to stay together all along.
+inline constexpr int kJumpHalvings = 8;
+inline constexpr double kJumpShare = 0.7;
+
+/// Colour channel: a pixel whose centre differs by less from the mean of its corners is taken for linear.
+inline constexpr double kLinearPixel = 1.0 / 1024;
+
 } // namespace fetexc::budget

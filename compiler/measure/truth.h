@@ -4,6 +4,7 @@
 /// from the planar map of a grid of this library's own, never from an asset.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -20,11 +21,13 @@ struct WidthPoint {
     double x = 0, y = 0;
 };
 
-/// Part of a curve with different results on its sides, monotone in x and y, following the curve with growing t.
+/// Part of a curve inside the canvas with different results on its sides, monotone in x and y, following the curve
+/// with growing t. Neighbouring parts share their end points bit for bit. What runs along the border of the canvas is
+/// no edge.
 struct VisibleEdge {
     int degree = 1;
-    WidthPoint p[4];              ///< Bezier points
-    ResultId left = 0, right = 0; ///< looking along growing t (y down)
+    std::array<WidthPoint, 4> p{};
+    ResultId left = 0, right = 0; ///< left: towards (y', −x'), which is left on the screen when moving up
 };
 
 /// Nearest point of a visible edge.
@@ -33,26 +36,47 @@ struct EdgePoint {
     double t = 0, distance = 0; ///< width units
 };
 
+/// Const members are thread-safe.
 class Truth {
   public:
     /// The scene must outlive the truth. Errors as PlanarMap::build's.
     static Result<std::unique_ptr<Truth>> of(const Scene& scene, unsigned threads);
-    virtual ~Truth() = default;
+    ~Truth();
+    Truth(const Truth&) = delete;
+    Truth& operator=(const Truth&) = delete;
 
-    [[nodiscard]] virtual const Scene& scene() const = 0;
+    [[nodiscard]] const Scene& scene() const;
     /// Height of the canvas in width units.
-    [[nodiscard]] virtual double height() const = 0;
-    [[nodiscard]] virtual ResultId result_at(TexturePoint p) const = 0;
-    /// Colour of a result at a point, whether it is visible there or not. Premultiplied sRGB.
-    [[nodiscard]] virtual Rgba color(ResultId result, TexturePoint p) const = 0;
-    [[nodiscard]] virtual std::span<const VisibleEdge> edges() const = 0;
-    [[nodiscard]] virtual EdgePoint nearest_edge(TexturePoint p, double radius) const = 0;
-    /// Edges that pass within the radius (or a little beyond it).
-    virtual void edges_near(TexturePoint p, double radius, std::vector<std::uint32_t>& out) const = 0;
+    [[nodiscard]] double height() const;
+    [[nodiscard]] WidthPoint to_width(TexturePoint p) const { return {p.u, p.v * height()}; }
+    [[nodiscard]] TexturePoint to_texture(WidthPoint p) const { return {p.x, p.y / height()}; }
+
+    /// Ids are those of this truth, and which ones depends on the order of questions (scene/compositor.h).
+    [[nodiscard]] ResultId result_at(TexturePoint p) const;
+    /// Colour of a result at a point, whether it is visible there or not. Premultiplied sRGB; solid ones are rounded to
+    /// RGBA8.
+    [[nodiscard]] Rgba color(ResultId result, TexturePoint p) const;
+    [[nodiscard]] bool is_solid(ResultId result) const;
+
+    /// In an order that depends on the scene alone.
+    [[nodiscard]] std::span<const VisibleEdge> edges() const;
+    /// Distance accurate to 1e-12; radius may be infinite.
+    [[nodiscard]] EdgePoint nearest_edge(TexturePoint p, double radius) const;
+    /// The same for one edge.
+    [[nodiscard]] EdgePoint nearest_on(std::uint32_t edge, TexturePoint p, double radius) const;
+    /// Edges whose boxes come within the radius (so all that do, and perhaps some more); ascending.
+    void edges_near(TexturePoint p, double radius, std::vector<std::uint32_t>& out) const;
+
     /// The exactly integrated picture: width × height pixels, row-major, each the area mean of the premultiplied sRGB
     /// colours in it. Solid regions by the areas of the planar map's trapezoids (relative error below 1e-9 of a pixel),
-    /// others by quadrature inside each trapezoid (error stated in measure/README.md).
-    [[nodiscard]] virtual Result<std::vector<Rgba>> picture(GridSize pixels, unsigned threads) const = 0;
+    /// others by quadrature inside each trapezoid (error stated in measure/README.md). Errors as PlanarMap::build's,
+    /// and a size outside 1 … 16384.
+    [[nodiscard]] Result<std::vector<Rgba>> picture(GridSize pixels, unsigned threads) const;
+
+  private:
+    Truth();
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 } // namespace fetexc::measure

@@ -113,27 +113,37 @@ double minimum_parameter(const Slope& g) {
 
 double length(CanvasPoint p) { return std::hypot(p.x, p.y); }
 
-/// The segment is already translated so that the query point is the origin.
-double search(const CanvasSegment& s, double best, int halvings) {
+CurveDistance nearer(CurveDistance best, const CanvasSegment& s, double local_t, double t0, double t1) {
+    const double distance = length(bezier::point_at(s, local_t));
+    return distance < best.distance ? CurveDistance{distance, t0 + local_t * (t1 - t0)} : best;
+}
+
+/// The segment is already translated so that the query point is the origin; it is the part over [t0,t1] of the whole.
+CurveDistance search(const CanvasSegment& s, double t0, double t1, CurveDistance best, int halvings) {
     // without the slack, parts so small that their slopes are rounding noise would be halved on and on
-    if (box_distance(s) + budget::kDistanceAccuracy / 2 >= best) return best;
-    best = std::min({best, length(s.p[0]), length(s.p[s.degree])});
+    if (box_distance(s) + budget::kDistanceAccuracy / 2 >= best.distance) return best;
+    best = nearer(nearer(best, s, 0, t0, t1), s, 1, t0, t1);
     const Slope g = slope_of(s);
     const int changes = sign_changes(g);
     if (changes == 0 || halvings == kMaxHalvings) return best;
     if (changes == 1) // a change from rising to falling is a maximum
-        return g.c[0] > 0 ? best : std::min(best, length(bezier::point_at(s, minimum_parameter(g))));
-    best = search(bezier::part(s, 0, 0.5), best, halvings + 1);
-    return search(bezier::part(s, 0.5, 1), best, halvings + 1);
+        return g.c[0] > 0 ? best : nearer(best, s, minimum_parameter(g), t0, t1);
+    const double middle = t0 + (t1 - t0) / 2;
+    best = search(bezier::part(s, 0, 0.5), t0, middle, best, halvings + 1);
+    return search(bezier::part(s, 0.5, 1), middle, t1, best, halvings + 1);
 }
 
 } // namespace
 
-double distance_below(const CanvasSegment& s, double x, double y, double best) {
+CurveDistance nearest_below(const CanvasSegment& s, double x, double y, CurveDistance best) {
     CanvasSegment local = s;
     for (int i = 0; i <= s.degree; ++i)
         local.p[i] = {s.p[i].x - x, s.p[i].y - y};
-    return search(local, best, 0);
+    return search(local, 0, 1, best, 0);
+}
+
+double distance_below(const CanvasSegment& s, double x, double y, double best) {
+    return nearest_below(s, x, y, {best, 0}).distance;
 }
 
 } // namespace fetexc

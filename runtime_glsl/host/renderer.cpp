@@ -2,6 +2,7 @@
 #include "runtime_glsl/host/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 #include "runtime_glsl/host/gl_objects.h"
@@ -13,12 +14,39 @@ constexpr std::uint32_t kRecordColumns = 2048; ///< as fetex_fbt.glsl reads them
 constexpr double kBitmapShift = 0.5;           ///< texels; a bitmap's sample stands in the middle of its texel
 
 // Texture units; 2 is the render target's while it is made.
-constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kBitmapUnit = 0;
+constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kBitmapUnit = 0, kFieldUnit = 0;
+
+/// A sampler's program, and the texture that its grid is laid over.
+struct Layer {
+    const Program& program;
+    std::uint32_t width = 0, height = 0;
+    double shift = 0;
+};
 
 double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// The GPU's time of what `draw` submits, in seconds.
+template <class Draw> double gpu_seconds(const GladGLContext& gl, const Draw& draw) {
+    GLuint query = 0;
+    GLuint64 nanoseconds = 0;
+    gl.GenQueries(1, &query);
+    gl.BeginQuery(GL_TIME_ELAPSED, query);
+    draw();
+    gl.EndQuery(GL_TIME_ELAPSED);
+    gl.GetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds); // waits
+    gl.DeleteQueries(1, &query);
+    return static_cast<double>(nanoseconds) * 1e-9;
+}
+
+template <class Draw> double cpu_seconds(const GladGLContext& gl, const Draw& draw) {
+    const double start = process_cpu_seconds();
+    draw();
+    gl.Finish();
+    return process_cpu_seconds() - start;
 }
 
 } // namespace
@@ -29,9 +57,9 @@ struct Renderer::State {
     GLint max_texture_side = 0, max_buffer_texels = 0;
     GLuint vertex_array = 0;
     Target target;
-    Program fbt_program, bitmap_program, filtered_program;
-    GLuint texel_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0;
-    std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0;
+    Program fbt_program, bitmap_program, filtered_program, field_program;
+    GLuint texel_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0, field_texture = 0;
+    std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
@@ -41,7 +69,12 @@ struct Renderer::State {
     void upload_record_buffer(const FbtTexture& texture);
     RuntimeStatus upload_fbt(const FbtTexture& texture);
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
+    RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,
+                               std::uint32_t height) const;
+    RuntimeStatus upload_field(const Field& field);
+    Layer bind(Sampler sampler) const;
     void bind_fbt() const;
+    void bind_field() const;
     void bind_bitmap(GLint filter) const;
     void draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
                    std::uint32_t height, double shift, std::uint32_t first_x, std::uint32_t first_y) const;
@@ -135,13 +168,19 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     return gl_error(gl(), "uploading a texture");
 }
 
-RuntimeStatus Renderer::State::upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width,
-                                             std::uint32_t height) {
+RuntimeStatus Renderer::State::check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,
+                                            std::uint32_t height) const {
     const auto side = static_cast<std::uint32_t>(max_texture_side);
-    if (width == 0 || height == 0 || rgba8.size() != std::size_t{width} * height * 4)
+    if (width == 0 || height == 0 || values != std::size_t{width} * height * channels)
         return RuntimeError{RuntimeErrc::NothingUploaded, "the bitmap is empty or not of the stated size"};
     if (width > side || height > side)
         return RuntimeError{RuntimeErrc::TextureTooLarge, "the bitmap is beyond " + std::to_string(side) + " a side"};
+    return std::nullopt;
+}
+
+RuntimeStatus Renderer::State::upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width,
+                                             std::uint32_t height) {
+    if (auto bad = check_bitmap(rgba8.size(), 4, width, height)) return bad;
     for (const bool filtered : {false, true}) {
         Program& program = filtered ? filtered_program : bitmap_program;
         if (program.id != 0) continue;
@@ -159,6 +198,23 @@ RuntimeStatus Renderer::State::upload_bitmap(std::span<const std::uint8_t> rgba8
     return gl_error(gl(), "uploading a bitmap");
 }
 
+RuntimeStatus Renderer::State::upload_field(const Field& field) {
+    if (auto bad = check_bitmap(field.values.size(), 1, field.width, field.height)) return bad;
+    auto program = build_program(gl(), view_vertex_source(options.dialect),
+                                 field_fragment_source(options.dialect, field), {"fetexField"});
+    if (!program) return program.error();
+    if (field_program.id != 0) gl().DeleteProgram(field_program.id);
+    gl().DeleteTextures(1, &field_texture);
+    field_program = program.value();
+    gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    field_texture =
+        make_texture(gl(), kFieldUnit, GL_R8, field.width, field.height, GL_RED, GL_UNSIGNED_BYTE, field.values.data());
+    gl().PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    field_width = field.width;
+    field_height = field.height;
+    return gl_error(gl(), "uploading a field");
+}
+
 void Renderer::State::bind_fbt() const {
     gl().ActiveTexture(GL_TEXTURE0 + kTexelUnit);
     gl().BindTexture(GL_TEXTURE_2D, texel_texture);
@@ -171,6 +227,27 @@ void Renderer::State::bind_bitmap(GLint filter) const {
     gl().BindTexture(GL_TEXTURE_2D, bitmap_texture);
     gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+}
+
+void Renderer::State::bind_field() const {
+    gl().ActiveTexture(GL_TEXTURE0 + kFieldUnit);
+    gl().BindTexture(GL_TEXTURE_2D, field_texture);
+}
+
+/// What time_draws draws; a program of 0 if nothing was uploaded.
+Layer Renderer::State::bind(Sampler sampler) const {
+    switch (sampler) {
+    case Sampler::Bilinear:
+        bind_bitmap(GL_LINEAR);
+        return {filtered_program, bitmap_width, bitmap_height, kBitmapShift};
+    case Sampler::Field:
+        bind_field();
+        return {field_program, field_width, field_height, kBitmapShift};
+    case Sampler::Fbt:
+        break;
+    }
+    bind_fbt();
+    return {fbt_program, fbt_width, fbt_height, 0};
 }
 
 void Renderer::State::draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
@@ -249,6 +326,8 @@ Outcome<Image> Renderer::render(const View& view, const RenderSize& size) {
     return state_->render(state_->fbt_program, view, size, state_->fbt_width, state_->fbt_height, 0);
 }
 
+bool Renderer::has_bitmap() const { return state_->bitmap_texture != 0; }
+
 Outcome<Image> Renderer::render_bitmap(const View& view, const RenderSize& size) {
     if (auto bad = check_view(view, size)) return *bad;
     if (state_->bitmap_texture == 0) return RuntimeError{RuntimeErrc::NothingUploaded, "no bitmap was uploaded"};
@@ -259,28 +338,47 @@ Outcome<Image> Renderer::render_bitmap(const View& view, const RenderSize& size)
                           kBitmapShift);
 }
 
-Outcome<std::vector<double>> Renderer::time_draws(bool fbt, const View& view, std::uint32_t side,
-                                                  std::uint32_t rounds) {
+RuntimeStatus Renderer::upload_field(const Field& field) {
+    if (!(field.range >= 0) || !std::isfinite(field.range))
+        return RuntimeError{RuntimeErrc::NothingUploaded, "the field's range is negative or not finite"};
+    const CurrentContext current(*state_->context);
+    return current.ok() ? state_->upload_field(field) : kNotCurrent;
+}
+
+Outcome<Image> Renderer::render_field(const View& view, const RenderSize& size) {
+    if (auto bad = check_view(view, size)) return *bad;
+    if (state_->field_program.id == 0) return RuntimeError{RuntimeErrc::NothingUploaded, "no field was uploaded"};
+    const CurrentContext current(*state_->context);
+    if (!current.ok()) return kNotCurrent;
+    state_->bind_field();
+    return state_->render(state_->field_program, view, size, state_->field_width, state_->field_height, kBitmapShift);
+}
+
+bool Renderer::is_software() const {
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"})
+        if (description().find(name) != std::string::npos) return true;
+    return false;
+}
+
+Outcome<double> Renderer::time_draws(Sampler sampler, const View& view, std::uint32_t side, std::uint32_t draws) {
     State& state = *state_;
     const RenderSize size{side, side, 1};
     if (auto bad = check_view(view, size)) return *bad;
-    const Program& program = fbt ? state.fbt_program : state.filtered_program;
-    if (program.id == 0 || side > kTileSide)
-        return RuntimeError{RuntimeErrc::NothingUploaded, "nothing was uploaded, or the side is beyond one tile"};
+    if (!is_software() && (state.context->es || !state.gl().GetQueryObjectui64v))
+        return RuntimeError{RuntimeErrc::GlTooOld, "this context has no timer queries"};
     const CurrentContext current(*state.context);
     if (!current.ok()) return kNotCurrent;
+    const Layer layer = state.bind(sampler);
+    if (layer.program.id == 0 || side > kTileSide)
+        return RuntimeError{RuntimeErrc::NothingUploaded, "nothing was uploaded, or the side is beyond one tile"};
     auto target = make_target(state.gl(), GL_RGBA8, side);
     if (!target) return target.error();
-    fbt ? state.bind_fbt() : state.bind_bitmap(GL_LINEAR);
     state.gl().Viewport(0, 0, static_cast<GLsizei>(side), static_cast<GLsizei>(side));
-    std::vector<double> seconds;
-    for (std::uint32_t round = 0; round < rounds; ++round) {
-        const double start = process_cpu_seconds();
-        state.draw_tile(program, view, size, fbt ? state.fbt_width : state.bitmap_width,
-                        fbt ? state.fbt_height : state.bitmap_height, fbt ? 0 : kBitmapShift, 0, 0);
-        state.gl().Finish();
-        seconds.push_back(process_cpu_seconds() - start);
-    }
+    const auto draw = [&] {
+        for (std::uint32_t k = 0; k < draws; ++k)
+            state.draw_tile(layer.program, view, size, layer.width, layer.height, layer.shift, 0, 0);
+    };
+    const double seconds = is_software() ? cpu_seconds(state.gl(), draw) : gpu_seconds(state.gl(), draw);
     delete_target(state.gl(), target.value());
     if (auto bad = gl_error(state.gl(), "timing")) return *bad;
     return seconds;

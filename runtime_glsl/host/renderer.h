@@ -32,6 +32,22 @@ struct RendererOptions {
     bool texture_buffer = false;        ///< records in a texture buffer; not with Essl300
 };
 
+/// What a draw looks up.
+enum class Sampler : std::uint8_t {
+    Fbt,
+    Bilinear, ///< the bitmap through the hardware's LINEAR filter: the plain lookup that costs are compared with
+    Field,
+};
+
+/// One channel, interpolated and cut at one half between two colours: a threshold texture or a distance field.
+struct Field {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> values; ///< row-major, top row first; texel centres at (i+1/2, j+1/2); 255 is 1
+    /// Texels of distance between the values 0 and 1: edges are one sample soft. 0: not a distance, edges are hard.
+    double range = 0;
+    float below[4] = {}, above[4] = {1, 1, 1, 1}; ///< premultiplied
+};
+
 /// One context and what is uploaded to it. Not for several threads at once. The context is current only inside a call,
 /// so renderers of different back ends can live side by side (GLX dies if another API's context is still current).
 class Renderer {
@@ -51,13 +67,20 @@ class Renderer {
 
     /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
+    [[nodiscard]] bool has_bitmap() const;
     /// Bilinear interpolation in full precision, edges repeated.
     Outcome<Image> render_bitmap(const View& view, const RenderSize& size);
 
-    /// Draws the same frame `rounds` times without reading it back and gives the CPU time of each draw with glFinish,
-    /// in seconds (all threads of the process): for cost ratios on software renderers. FBT if `fbt`, else the bitmap
-    /// through the sampler's LINEAR filter, the plain lookup to compare with.
-    Outcome<std::vector<double>> time_draws(bool fbt, const View& view, std::uint32_t side, std::uint32_t rounds);
+    RuntimeStatus upload_field(const Field& field);
+    /// Interpolated in the shader in full precision, edges repeated.
+    Outcome<Image> render_field(const View& view, const RenderSize& size);
+
+    /// Whether the processor draws (llvmpipe, SwiftShader …).
+    [[nodiscard]] bool is_software() const;
+    /// Draws the same frame `draws` times without reading it back; seconds for all of them. Software: CPU time of the
+    /// process, all threads. Else the GPU's (GL_TIME_ELAPSED), which ES contexts don't tell: E7004. `side` is at most
+    /// kTileSide.
+    Outcome<double> time_draws(Sampler sampler, const View& view, std::uint32_t side, std::uint32_t draws);
 
   private:
     struct State;

@@ -2,9 +2,11 @@
 #include "runtime_glsl/host/shader_source.h"
 
 #include <cassert>
+#include <cstdio>
 #include <cstring>
 
 #include "runtime_glsl/host/embedded_shaders.h"
+#include "runtime_glsl/host/renderer.h"
 
 namespace fetex {
 namespace {
@@ -16,8 +18,20 @@ std::string file_text(const std::string& name) {
     return {};
 }
 
-std::string define(const char* name, std::uint32_t value) {
-    return std::string("#define ") + name + " " + std::to_string(value) + "\n";
+std::string define(const char* name, const std::string& value) {
+    return std::string("#define ") + name + " " + value + "\n";
+}
+
+std::string define(const char* name, std::uint32_t value) { return define(name, std::to_string(value)); }
+
+std::string real(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9e", value);
+    return text;
+}
+
+std::string color(const float (&c)[4]) {
+    return "vec4(" + real(c[0]) + ", " + real(c[1]) + ", " + real(c[2]) + ", " + real(c[3]) + ")";
 }
 
 } // namespace
@@ -65,6 +79,13 @@ std::string bitmap_fragment_source(Dialect dialect) {
 
 std::string filtered_bitmap_fragment_source(Dialect dialect) {
     return shader_prelude(dialect) + file_text("view.glsl") + file_text("filtered_bitmap.frag.glsl");
+}
+
+std::string field_fragment_source(Dialect dialect, const Field& field) {
+    return shader_prelude(dialect) + define("FETEX_FIELD_BELOW", color(field.below)) +
+           define("FETEX_FIELD_ABOVE", color(field.above)) +
+           (field.range > 0 ? define("FETEX_FIELD_RANGE", real(field.range)) : "") + file_text("view.glsl") +
+           file_text("field.frag.glsl");
 }
 
 } // namespace fetex

@@ -10,6 +10,8 @@
 
 namespace fetex {
 
+struct Field;
+
 enum class Dialect : std::uint8_t { Glsl330, Glsl430, Essl300, Vulkan450 };
 inline constexpr Dialect kDialects[] = {Dialect::Glsl330, Dialect::Glsl430, Dialect::Essl300, Dialect::Vulkan450};
 
@@ -27,11 +29,12 @@ std::string fbt_specialisation(const FbtTraits& traits);
 /// texture are looked at.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
 
-/// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, and the bitmap
-/// through the hardware filter.
+/// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, the bitmap
+/// through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
+std::string field_fragment_source(Dialect dialect, const Field& field);
 
 } // namespace fetex

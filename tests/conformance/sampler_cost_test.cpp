@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What an FBT lookup costs beside a plain bilinear one, on a software renderer with one thread: medians of paired CPU
-/// times over interleaved rounds. Prints the table; fails only if the sampler becomes several times dearer than it was.
+/// What lookups cost beside a plain bilinear one, on a software renderer with one thread. Prints the table; fails only
+/// if a sampler becomes several times dearer than it was.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <optional>
 
 #include "formats/validate.h"
-#include "runtime_glsl/host/renderer.h"
+#include "runtime_glsl/host/sampler_cost.h"
 
 namespace fetexc::test {
 namespace {
@@ -49,42 +48,66 @@ FbtTexture simple_texture(std::uint32_t degree, std::uint32_t percent) {
     return t;
 }
 
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
-/// Cost of the uploaded FBT in lookups of the uploaded bitmap.
-double relative_cost(Renderer& renderer) {
-    constexpr std::uint32_t kSide = 256, kRounds = 11;
-    std::vector<double> ratios;
-    for (std::uint32_t round = 0; round <= kRounds; ++round) {
-        const auto plain = renderer.time_draws(false, {}, kSide, 1), fbt = renderer.time_draws(true, {}, kSide, 1);
-        if (!plain.ok() || !fbt.ok()) return -1;
-        if (round > 0) ratios.push_back(fbt.value()[0] / plain.value()[0]); // the first compiles the shaders
+class SamplerCosts : public testing::Test {
+  protected:
+    void SetUp() override {
+        auto opened = open_for_timing();
+        if (!opened && opened.error().code == RuntimeErrc::BackendMissing) GTEST_SKIP() << opened.error().message;
+        ASSERT_TRUE(opened.ok()) << opened.error().message;
+        renderer_.emplace(std::move(opened.value()));
+        ASSERT_TRUE(renderer_->is_software()) << renderer_->description();
     }
-    return median(ratios);
-}
+    SamplerCost cost_of(Sampler sampler) {
+        const auto cost = sampler_cost(*renderer_, sampler, {.side = 256});
+        EXPECT_TRUE(cost.ok()) << cost.error().message;
+        return cost ? cost.value() : SamplerCost{};
+    }
 
-TEST(SamplerCost, staysAFewPlainLookups) {
-    setenv("LP_NUM_THREADS", "0", 1);
-    auto opened = Renderer::open(Backend::OSMesa);
-    ASSERT_TRUE(opened.ok()) << opened.error().message;
-    Renderer& renderer = opened.value();
-    std::vector<std::uint8_t> bitmap(std::size_t{256} * 256 * 4, 77);
-    ASSERT_FALSE(renderer.upload_bitmap(bitmap, 256, 256).has_value());
+    std::optional<Renderer> renderer_;
+};
+
+TEST_F(SamplerCosts, fbtStaysAFewPlainLookups) {
     std::printf("  cost / plain bilinear lookup, at 0, 5, 20, 100%% of texels with a feature\n");
     for (std::uint32_t degree = 1; degree <= 3; ++degree) {
         std::printf("  degree %u:", degree);
         for (const std::uint32_t percent : {0u, 5u, 20u, 100u}) {
-            ASSERT_FALSE(renderer.upload(simple_texture(degree, percent)).has_value());
-            const double cost = relative_cost(renderer);
-            ASSERT_GT(cost, 0);
-            std::printf(" %.2f", cost);
-            EXPECT_LT(cost, 25);
+            ASSERT_FALSE(renderer_->upload(simple_texture(degree, percent)).has_value());
+            const SamplerCost cost = cost_of(Sampler::Fbt);
+            std::printf(" %.2f (%.2f-%.2f)", cost.median, cost.lower_quartile, cost.upper_quartile);
+            EXPECT_GT(cost.median, 1);
+            EXPECT_LT(cost.median, 25);
         }
         std::printf("\n");
     }
+}
+
+/// The control: a lookup against itself. Bounds for a machine under load.
+TEST_F(SamplerCosts, plainLookupCostsItself) {
+    const SamplerCost cost = cost_of(Sampler::Bilinear);
+    std::printf("  plain: %.3f (%.3f-%.3f)\n", cost.median, cost.lower_quartile, cost.upper_quartile);
+    EXPECT_NEAR(cost.median, 1, 0.3);
+    EXPECT_EQ(cost.rounds, 11u);
+}
+
+TEST_F(SamplerCosts, fieldsCostLessThanFourLookups) {
+    Field field{.width = 61, .height = 47, .values = std::vector<std::uint8_t>(std::size_t{61} * 47)};
+    for (std::size_t k = 0; k < field.values.size(); ++k)
+        field.values[k] = static_cast<std::uint8_t>(k * 89 % 251);
+    for (const double range : {0.0, 4.0}) {
+        field.range = range;
+        ASSERT_FALSE(renderer_->upload_field(field).has_value());
+        const SamplerCost cost = cost_of(Sampler::Field);
+        std::printf("  %s: %.2f (%.2f-%.2f)\n", range > 0 ? "distance field" : "threshold", cost.median,
+                    cost.lower_quartile, cost.upper_quartile);
+        EXPECT_GT(cost.median, 0.5);
+        EXPECT_LT(cost.median, 4);
+    }
+}
+
+TEST_F(SamplerCosts, needWhatTheyLookUp) {
+    const auto cost = sampler_cost(*renderer_, Sampler::Field);
+    ASSERT_FALSE(cost.ok());
+    EXPECT_EQ(cost.error().code, RuntimeErrc::NothingUploaded);
 }
 
 } // namespace

@@ -7,10 +7,11 @@
 #include <sstream>
 
 #include "compiler/planar/reachability.h"
+#include "compiler/planar/trapezoid_area.h"
 #include "compiler/union_find.h"
 #include "tests/support/exact_winding.h"
 #include "tests/support/random.h"
-#include "tests/support/trapezoid_area.h"
+#include "tests/support/trapezoid_point.h"
 
 namespace fetexc::test {
 namespace {

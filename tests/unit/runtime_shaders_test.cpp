@@ -10,6 +10,7 @@
 
 #include <unistd.h>
 
+#include "runtime_glsl/host/renderer.h"
 #include "runtime_glsl/host/shader_source.h"
 
 namespace fetex {
@@ -94,6 +95,11 @@ TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
         EXPECT_EQ(run(view_vertex_source(dialect), "view.vert", tool + " @"), "");
         EXPECT_EQ(run(bitmap_fragment_source(dialect), "bitmap.frag", tool + " @"), "");
         EXPECT_EQ(run(filtered_bitmap_fragment_source(dialect), "filtered.frag", tool + " @"), "");
+        for (const double range : {0.0, 4.0}) {
+            Field field;
+            field.range = range;
+            EXPECT_EQ(run(field_fragment_source(dialect, field), "field.frag", tool + " @"), "") << range;
+        }
     }
     EXPECT_GT(count, 300u);
 }

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Areas of trapezoids by integrals along their sides, and points inside them. Planar space.
+/// Areas of trapezoids by integrals along their sides. Planar space.
 #pragma once
 
-#include <optional>
-
 #include "compiler/planar/texel_map.h"
-#include "tests/support/exact_winding.h"
-#include "tests/support/random.h"
 
-namespace fetexc::test {
+namespace fetexc {
 
 struct BoundedArea {
-    double area = 0, error = 0;
+    double area = 0, error = 0; ///< error: a bound
 };
 
 class TrapezoidAreas {
@@ -31,12 +27,4 @@ class TrapezoidAreas {
     long double width_, height_;
 };
 
-struct TrapezoidPoint {
-    std::optional<ExactPoint> point; ///< none: too thin to find one
-    bool wrong_order = false;        ///< the left side runs right of the right side
-};
-
-/// A random point certainly inside: strictly between the enclosures of the nodes above and below and of both sides.
-[[nodiscard]] TrapezoidPoint point_in(const PlanarMap& map, const TexelMap& texel, const Trapezoid& t, Random& random);
-
-} // namespace fetexc::test
+} // namespace fetexc

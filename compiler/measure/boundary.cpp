@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/measure/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compiler/error_budget.h"
+#include "compiler/measure/edge_index.h"
+#include "compiler/parallel.h"
+
+namespace fetexc::measure {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoChange = -1;
+constexpr std::size_t kEdgesPerTask = 64;
+
+/// Place in [0,1] where a predicate that holds at 0 and not at 1 changes.
+template <class Holds> double bisect(const Holds& holds) {
+    double lo = 0, hi = 1;
+    for (int step = 0; step < budget::kBoundaryHalvings; ++step) {
+        const double middle = (lo + hi) / 2;
+        (holds(middle) ? lo : hi) = middle;
+    }
+    return (lo + hi) / 2;
+}
+
+/// Directions to look in, from the normal: both along it first.
+constexpr double kDiagonal = 0.70710678118654752;
+constexpr std::array<WidthPoint, 8> kStar{{{1, 0},
+                                           {-1, 0},
+                                           {0, 1},
+                                           {0, -1},
+                                           {kDiagonal, kDiagonal},
+                                           {kDiagonal, -kDiagonal},
+                                           {-kDiagonal, kDiagonal},
+                                           {-kDiagonal, -kDiagonal}}};
+
+double distance(WidthPoint a, WidthPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+double distance_to_segment(WidthPoint p, WidthPoint a, WidthPoint b) {
+    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+    if (square == 0) return distance(p, a);
+    const double t = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / square, 0.0, 1.0);
+    return distance(p, {a.x + t * dx, a.y + t * dy});
+}
+
+} // namespace
+
+PictureBoundary::PictureBoundary(const Subject& subject, const SampleGrid& grid) : subject_(subject), grid_(grid) {
+    right_.assign(grid.size(), kNoChange), down_.assign(grid.size(), kNoChange);
+    const GridSize n = grid.pixels();
+    parallel_for(n.height, subject.threads, [&](std::size_t row) {
+        for (std::uint32_t i = 0; i < n.width; ++i) {
+            const std::size_t k = grid.index(i, static_cast<std::uint32_t>(row));
+            if (i + 1 < n.width) right_[k] = change_between(k, k + 1);
+            if (row + 1 < n.height) down_[k] = change_between(k, k + n.width);
+        }
+    });
+}
+
+WidthPoint PictureBoundary::between(std::size_t a, std::size_t b, double t) const {
+    const WidthPoint p = subject_.truth.to_width(grid_.point(a)), q = subject_.truth.to_width(grid_.point(b));
+    return {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
+}
+
+bool PictureBoundary::takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const {
+    const TexturePoint at = subject_.truth.to_texture(p);
+    const Rgba color = subject_.picture.at(at);
+    return color_distance(color, subject_.truth.color(first, at)) <=
+           color_distance(color, subject_.truth.color(second, at));
+}
+
+bool PictureBoundary::on_canvas(WidthPoint p) const {
+    return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= subject_.truth.height();
+}
+
+double PictureBoundary::change_between(std::size_t a, std::size_t b) const {
+    const ResultId first = grid_.picture(a), second = grid_.picture(b);
+    if (first == second) return kNoChange;
+    const TexturePoint middle = subject_.truth.to_texture(between(a, b, 0.5));
+    if (contrast(subject_.truth.color(first, middle), subject_.truth.color(second, middle)) < subject_.min_contrast)
+        return kNoChange;
+    return bisect([&](double t) { return takes_for_first(between(a, b, t), first, second); });
+}
+
+Distances PictureBoundary::summary(const std::vector<std::vector<Sample>>& rows) {
+    std::vector<Sample> all;
+    for (const std::vector<Sample>& row : rows)
+        all.insert(all.end(), row.begin(), row.end());
+    Distances out;
+    out.points = all.size();
+    double sum = 0, weight = 0;
+    for (const Sample& s : all) {
+        sum += s.weight * s.distance, weight += s.weight;
+        out.beyond_reach += s.beyond ? 1 : 0;
+        if (s.distance > out.hausdorff) out.hausdorff = s.distance, out.farthest = s.place;
+    }
+    if (all.empty()) return out;
+    out.mean = sum / weight;
+    std::stable_sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
+    double below = 0;
+    for (const Sample& s : all) {
+        below += s.weight, out.p95 = s.distance;
+        if (below >= 0.95 * weight) break;
+    }
+    return out;
+}
+
+Distances PictureBoundary::to_truth() const {
+    const GridSize n = grid_.pixels();
+    std::vector<std::vector<Sample>> rows(n.height);
+    parallel_for(n.height, subject_.threads, [&](std::size_t row) {
+        const auto add = [&](std::size_t a, std::size_t b, double t) {
+            if (t < 0) return;
+            const WidthPoint p = between(a, b, t);
+            const EdgePoint nearest = subject_.truth.nearest_edge(subject_.truth.to_texture(p), subject_.reach);
+            rows[row].push_back({nearest.distance, 1, nearest.edge == kNone, p});
+        };
+        for (std::uint32_t i = 0; i < n.width; ++i) {
+            const std::size_t k = grid_.index(i, static_cast<std::uint32_t>(row));
+            add(k, k + 1, right_[k]);
+            add(k, k + n.width, down_[k]);
+        }
+    });
+    return summary(rows);
+}
+
+/// Changes on the sides of the square of sample points (i,j) … (i+1,j+1).
+std::size_t PictureBoundary::changes_around(std::uint32_t i, std::uint32_t j, std::array<WidthPoint, 4>& out) const {
+    const std::size_t k = grid_.index(i, j), below = k + grid_.pixels().width;
+    std::size_t count = 0;
+    const auto add = [&](std::size_t a, std::size_t b, double t) {
+        if (t >= 0) out[count++] = between(a, b, t);
+    };
+    add(k, k + 1, right_[k]), add(k, below, down_[k]);
+    add(below, below + 1, right_[below]), add(k + 1, below + 1, down_[k + 1]);
+    return count;
+}
+
+/// Two changes are joined by a line; more meet in their middle.
+double PictureBoundary::distance_in_square(std::uint32_t i, std::uint32_t j, WidthPoint p) const {
+    std::array<WidthPoint, 4> change;
+    const std::size_t count = changes_around(i, j, change);
+    if (count == 0) return kInfinity;
+    if (count == 2) return distance_to_segment(p, change[0], change[1]);
+    WidthPoint middle;
+    for (std::size_t k = 0; k < count; ++k)
+        middle.x += change[k].x / static_cast<double>(count), middle.y += change[k].y / static_cast<double>(count);
+    double best = kInfinity;
+    for (std::size_t k = 0; k < count; ++k)
+        best = std::min(best, distance_to_segment(p, middle, change[k]));
+    return best;
+}
+
+/// Rings of squares around the point's own, until no nearer change can follow. Below `best`, else `best`.
+double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
+    const GridSize n = grid_.pixels();
+    const double height = subject_.truth.height(), pixel = std::min(1.0 / n.width, height / n.height);
+    const auto columns = static_cast<int>(n.width) - 1, rows = static_cast<int>(n.height) - 1;
+    const int x = static_cast<int>(p.x * n.width), y = static_cast<int>(p.y / height * n.height);
+    for (int ring = 0; (ring - 2) * pixel < best && ring <= std::max(columns, rows) + 1; ++ring) {
+        for (int j = std::max(y - ring, 0); j <= std::min(y + ring, rows - 1); ++j) {
+            const int step = j == y - ring || j == y + ring || ring == 0 ? 1 : 2 * ring;
+            for (int i = x - ring; i <= x + ring; i += step) {
+                if (i < 0 || i >= columns) continue;
+                best =
+                    std::min(best, distance_in_square(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), p));
+            }
+        }
+    }
+    return best;
+}
+
+/// Outwards in rings until the colour goes over to the edge's other result: on both sides along the normal, and near
+/// the point in six more directions (around a corner the picture may be met there only). Steps that double from far
+/// below a pixel, and never exceed a quarter of one.
+double PictureBoundary::distance_along_normal(const VisibleEdge& e, WidthPoint p, WidthPoint normal) const {
+    const bool first = takes_for_first(p, e.left, e.right);
+    const ResultId own = first ? e.left : e.right, other = first ? e.right : e.left;
+    const auto along = [&](std::size_t k, double d) {
+        const WidthPoint way = kStar[k];
+        return WidthPoint{p.x + d * (normal.x * way.x - normal.y * way.y),
+                          p.y + d * (normal.y * way.x + normal.x * way.y)};
+    };
+    const double pixel = grid_.pixel_side();
+    double from = 0, step = budget::kBoundaryFirstStep * pixel;
+    while (from < subject_.reach) {
+        const double to = std::min(from + step, subject_.reach);
+        const std::size_t directions = to < 1.5 * pixel ? kStar.size() : 2;
+        double found = kInfinity;
+        for (std::size_t k = 0; k < directions; ++k) {
+            if (!on_canvas(along(k, to)) || takes_for_first(along(k, to), own, other)) continue;
+            const double t =
+                bisect([&](double s) { return takes_for_first(along(k, from + s * (to - from)), own, other); });
+            found = std::min(found, from + t * (to - from));
+        }
+        if (found < kInfinity) return found;
+        from = to, step = std::min(to, 0.25 * pixel);
+    }
+    return kInfinity;
+}
+
+bool PictureBoundary::has_contrast(const VisibleEdge& e) const {
+    const TexturePoint middle = subject_.truth.to_texture(point_at(e, 0.5));
+    return contrast(subject_.truth.color(e.left, middle), subject_.truth.color(e.right, middle)) >=
+           subject_.min_contrast;
+}
+
+/// A point for every pixel's length; a change between sample points counts where it is nearer by more than what
+/// joining them by lines may be off.
+void PictureBoundary::measure_edge(const VisibleEdge& e, std::vector<Sample>& out) const {
+    const double length = distance(e.p[0], e.p[static_cast<std::size_t>(e.degree)]), pixel = grid_.pixel_side();
+    const int n = std::max(1, static_cast<int>(std::ceil(length / pixel)));
+    const double slack = budget::kBoundaryChordError * pixel;
+    for (int k = 0; k < n; ++k) {
+        const double t = (k + 0.5) / n;
+        const WidthPoint p = point_at(e, t), d = direction_at(e, t);
+        const double speed = std::hypot(d.x, d.y);
+        if (speed == 0) continue;
+        double nearest = distance_along_normal(e, p, {d.y / speed, -d.x / speed});
+        if (nearest > slack) {
+            const double change = distance_to_changes(p, std::min(nearest, subject_.reach));
+            if (change < std::min(nearest - slack, subject_.reach)) nearest = change;
+        }
+        const bool beyond = nearest > subject_.reach;
+        out.push_back({beyond ? subject_.reach : nearest, length / n, beyond, p});
+    }
+}
+
+Distances PictureBoundary::to_picture(std::uint64_t& edges_without_contrast) const {
+    const std::span<const VisibleEdge> edges = subject_.truth.edges();
+    std::vector<std::vector<Sample>> tasks((edges.size() + kEdgesPerTask - 1) / kEdgesPerTask);
+    std::vector<std::uint64_t> skipped(tasks.size(), 0);
+    parallel_for(tasks.size(), subject_.threads, [&](std::size_t task) {
+        for (std::size_t e = task * kEdgesPerTask; e < std::min(edges.size(), (task + 1) * kEdgesPerTask); ++e) {
+            if (has_contrast(edges[e]))
+                measure_edge(edges[e], tasks[task]);
+            else
+                ++skipped[task];
+        }
+    });
+    edges_without_contrast = 0;
+    for (const std::uint64_t s : skipped)
+        edges_without_contrast += s;
+    return summary(tasks);
+}
+
+} // namespace fetexc::measure

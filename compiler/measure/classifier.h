@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which result a sampled colour is taken for (measure/errors.h defines it).
+#pragma once
+
+#include <vector>
+
+#include "compiler/measure/picture.h"
+#include "compiler/measure/truth.h"
+
+namespace fetexc::measure {
+
+/// Largest difference of a channel.
+[[nodiscard]] double contrast(const Rgba& a, const Rgba& b);
+/// Squared, of all four channels.
+[[nodiscard]] double color_distance(const Rgba& a, const Rgba& b);
+/// Larger side of a texel in width units.
+[[nodiscard]] double texel_side(const Truth& truth, const Picture& picture);
+
+/// Const members are thread-safe.
+class Classifier {
+  public:
+    /// reach: width units.
+    Classifier(const Truth& truth, double reach, double min_contrast);
+    /// expected: the truth's result at the point.
+    [[nodiscard]] ResultId classify(TexturePoint p, ResultId expected, const Rgba& sampled) const;
+
+  private:
+    /// A result beside edges that may be within reach of a cell.
+    struct Candidate {
+        ResultId result = 0;
+        std::vector<std::uint32_t> edges;
+    };
+    using Cell = std::vector<Candidate>; ///< in the order of their first edges
+    [[nodiscard]] std::size_t index_of(double v, std::size_t cells) const;
+    [[nodiscard]] bool within_reach(const Candidate& candidate, TexturePoint p) const;
+
+    const Truth& truth_;
+    double reach_, min_contrast_, side_ = 1;
+    std::size_t columns_ = 1, rows_ = 1;
+    std::vector<Cell> cells_;
+};
+
+} // namespace fetexc::measure

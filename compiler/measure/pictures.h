@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Pictures to judge: an FBT through the reference sampler, and a bitmap.
+#pragma once
+
+#include <vector>
+
+#include "compiler/measure/picture.h"
+#include "formats/fbt.h"
+
+namespace fetexc::measure {
+
+class FbtPicture final : public Picture {
+  public:
+    /// A validated texture that outlives the picture.
+    explicit FbtPicture(const fetex::FbtTexture& texture) : texture_(texture) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return {texture_.width, texture_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override;
+
+  private:
+    const fetex::FbtTexture& texture_;
+};
+
+/// Stretched over the canvas, without mip levels; borders are clamped.
+class BitmapPicture final : public Picture {
+  public:
+    enum class Filter : std::uint8_t { Nearest, Bilinear };
+    /// rgba: premultiplied RGBA8, row-major, 4·width·height bytes; sides from 1.
+    BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filter filter);
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return size_; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override { return rgba_.size(); }
+
+  private:
+    [[nodiscard]] Rgba texel(std::int64_t i, std::int64_t j) const;
+    GridSize size_;
+    std::vector<std::uint8_t> rgba_;
+    Filter filter_;
+};
+
+} // namespace fetexc::measure

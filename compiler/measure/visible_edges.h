@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A planar map walked texel by texel, and the edges of its texels with different results on their sides.
+#pragma once
+
+#include <vector>
+
+#include "compiler/diagnostics.h"
+#include "compiler/measure/truth.h"
+#include "compiler/parallel.h"
+#include "compiler/planar/planar_map.h"
+#include "compiler/planar/texel_map.h"
+
+namespace fetexc::measure {
+
+/// Rows in parallel, each from left to right: empty(i, j, result) for a texel without edges, full(texel) for another.
+/// False: the map contradicts itself somewhere.
+template <class Empty, class Full>
+bool for_each_texel(const PlanarMap& map, const Scene& scene, Compositor& compositor, unsigned threads,
+                    const Empty& empty, const Full& full) {
+    std::vector<char> good(map.grid().height, 1);
+    parallel_for(map.grid().height, threads, [&](std::size_t row) {
+        const auto j = static_cast<std::uint32_t>(row);
+        PlanarStats stats;
+        TexelMapper mapper(map, scene, compositor, stats);
+        TexelMap texel;
+        map.along_row(j, [&](std::uint32_t i, const Windings& corner) {
+            if (i == map.grid().width || good[j] == 0) return;
+            if (map.sub_edges(i, j).empty())
+                empty(i, j, mapper.lookup()(corner));
+            else if (mapper.analyse(i, j, corner, texel))
+                full(static_cast<const TexelMap&>(texel));
+            else
+                good[j] = 0;
+        });
+    });
+    return std::find(good.begin(), good.end(), 0) == good.end();
+}
+
+/// The planar map at a size that no edge on the lattice can run along a line of: see visible_edges.cpp.
+Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads);
+
+[[nodiscard]] Error inconsistent_map();
+
+} // namespace fetexc::measure
