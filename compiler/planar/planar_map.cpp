@@ -206,11 +206,7 @@ class PlanarMap::Builder {
     std::optional<PointEnclosure> run() {
         add_vertices();
         walk_edges();
-        number_nodes();
-        join(map_.nodes_, &EdgeWalk::nodes);
-        join(map_.line_crossings_, &EdgeWalk::line_crossings);
-        join(map_.side_edges_, &EdgeWalk::side_edges);
-        join(map_.steps_, &EdgeWalk::steps);
+        join();
         stats_.grid_crossings = map_.line_crossings_.size();
         sort_side_edges();
         sort_into_texels();
@@ -255,40 +251,48 @@ class PlanarMap::Builder {
         });
     }
 
-    /// The nodes that a chunk made follow those of the chunks before.
-    void number_nodes() {
+    /// The nodes that a chunk made follow those of the chunks before, and so does all else.
+    void join() {
         const std::size_t vertices = map_.nodes_.size();
-        const std::vector<std::size_t> first = starts(&EdgeWalk::nodes, vertices);
+        const auto nodes = room(map_.nodes_, &EdgeWalk::nodes);
+        const auto line_crossings = room(map_.line_crossings_, &EdgeWalk::line_crossings);
+        const auto side_edges = room(map_.side_edges_, &EdgeWalk::side_edges);
+        const auto steps = room(map_.steps_, &EdgeWalk::steps);
         parallel_for(walks_.size(), threads_, [&](std::size_t c) {
-            const auto shift = static_cast<std::uint32_t>(first[c] - vertices);
+            EdgeWalk& w = walks_[c];
+            const auto shift = static_cast<std::uint32_t>(nodes[c] - vertices);
             const auto renumber = [&](std::uint32_t& n) { n += n < vertices ? 0 : shift; };
-            for (EdgeWalk::Piece& p : walks_[c].pieces)
+            for (EdgeWalk::Piece& p : w.pieces)
                 renumber(p.sub.n0), renumber(p.sub.n1);
-            for (SideEdge& e : walks_[c].side_edges)
+            for (SideEdge& e : w.side_edges)
                 renumber(e.n0), renumber(e.n1);
+            move_to(map_.nodes_, nodes[c], w.nodes);
+            move_to(map_.line_crossings_, line_crossings[c], w.line_crossings);
+            move_to(map_.side_edges_, side_edges[c], w.side_edges);
+            move_to(map_.steps_, steps[c], w.steps);
         });
         for (const EdgeWalk& w : walks_)
             undecided_ = undecided_ ? undecided_ : w.undecided;
     }
 
-    /// Where each chunk's items begin, and where the last's end.
-    template <class T>
-    [[nodiscard]] std::vector<std::size_t> starts(std::vector<T> EdgeWalk::*items, std::size_t first) const {
-        std::vector<std::size_t> out{first};
-        for (const EdgeWalk& w : walks_)
-            out.push_back(out.back() + (w.*items).size());
-        return out;
+    /// Makes room for the chunks' items; returns where each chunk's begin.
+    template <class T, class Allocator>
+    std::vector<std::size_t> room(std::vector<T, Allocator>& to, std::vector<T> EdgeWalk::*items) const {
+        std::vector<std::size_t> first;
+        std::size_t end = to.size();
+        for (const EdgeWalk& w : walks_) {
+            first.push_back(end);
+            end += (w.*items).size();
+        }
+        to.resize(end);
+        return first;
     }
 
-    /// Moves, and frees the source.
-    template <class T, class Allocator> void join(std::vector<T, Allocator>& to, std::vector<T> EdgeWalk::*items) {
-        const std::vector<std::size_t> first = starts(items, to.size());
-        to.resize(first.back());
-        parallel_for(walks_.size(), threads_, [&](std::size_t c) {
-            std::vector<T>& from = walks_[c].*items;
-            std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(first[c]));
-            from = {};
-        });
+    /// Frees the source.
+    template <class T, class Allocator>
+    static void move_to(std::vector<T, Allocator>& to, std::size_t first, std::vector<T>& from) {
+        std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(first));
+        from = {};
     }
 
     void sort_side_edges() {
