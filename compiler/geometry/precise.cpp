@@ -246,7 +246,15 @@ FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
     if (a.degree == 1 && b.degree == 1) return line_crossing(a, b);
     const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
-    if (precise_enough(plain, std::max(size_of(a), size_of(b)))) return plain;
+    const double size = std::max(size_of(a), size_of(b));
+    if (precise_enough(plain, size)) return plain;
+    ShortContact near(a, b, c);
+    for (int k = 0; k < budget::kShortSteps && near.narrow(); ++k) {
+        const PointEnclosure p{near.along(Axis::X), near.along(Axis::Y)};
+        if (!precise_enough(p, size)) continue;
+        c = near.contact();
+        return p;
+    }
     ContactRefiner refiner(a, b, budget::kPreciseBits);
     if (!refiner.run(c)) return plain;
     c = {range_of(refiner.s()), range_of(refiner.t())};
