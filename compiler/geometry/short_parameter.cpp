@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/short_parameter.h"
 
+#include <bit>
+
 #include "compiler/geometry/intersect.h"
 #include "compiler/geometry/polynomial.h"
 
@@ -22,22 +24,33 @@ Fixed times(Fixed v, std::int64_t t) {
     return (static_cast<Fixed>(high) * t) * (1 << up) + ((static_cast<Fixed>(low) * t) >> budget::kShortBits);
 }
 
+/// v·2^-bits, rounded towards zero.
+double truncated(Fixed v, int bits) {
+    const Unsigned128 m = magnitude(v);
+    const auto high = static_cast<std::uint64_t>(m >> 64), low = static_cast<std::uint64_t>(m);
+    const int length = high != 0 ? 64 + std::bit_width(high) : std::bit_width(low), dropped = std::max(0, length - 53);
+    const double d = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(m >> dropped)), dropped - bits);
+    return v < 0 ? -d : d;
+}
+
+/// v is evaluated, `beside` has to be added; the middle of both is kept.
+Interval enclose_evaluated(Fixed v, int error, const Interval& beside) {
+    const double e = std::ldexp(error, -budget::kFixedBits);
+    return enclose_fixed(v, v, budget::kFixedBits) + (beside + Interval(-e, e));
+}
+
 Interval meet(const Interval& a, const Interval& b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 bool empty(const Interval& v) { return !(v.lo <= v.hi); }
 
 } // namespace
 
-Interval enclose_fixed(Fixed v, int error) {
-    const auto scaled = [](Fixed w) { return std::ldexp(static_cast<double>(w), -budget::kFixedBits); };
-    return {widen_down(scaled(v - error)), widen_up(scaled(v + error))};
+Interval enclose_fixed(Fixed lo, Fixed hi, int bits) {
+    return {widen_down(truncated(lo, bits)), widen_up(truncated(hi, bits))};
 }
 
 ShortParameter::ShortParameter(const Interval& t) : mid(to_short(t.mid())), rest(minus_exactly(t, to_double(mid))) {}
 
-Interval ShortParameter::range() const {
-    const double m = to_double(mid);
-    return Interval(widen_down(m), widen_up(m)) + rest;
-}
+Interval ShortParameter::range() const { return enclose_fixed(mid, mid, budget::kShortBits) + rest; }
 
 void ShortParameter::narrow_to(const Interval& new_rest) {
     const std::int64_t shift = to_short(new_rest.mid());
@@ -55,7 +68,7 @@ Fixed FixedCoordinate::at(std::int64_t t) const {
 }
 
 Interval FixedCoordinate::over(const ShortParameter& t, const Interval& derivative) const {
-    return enclose_fixed(at(t.mid), budget::kShortError) + derivative * t.rest;
+    return enclose_evaluated(at(t.mid), budget::kShortError, derivative * t.rest);
 }
 
 ShortContact::ShortContact(const Curve& a, const Curve& b, const Contact& c)
@@ -64,7 +77,7 @@ ShortContact::ShortContact(const Curve& a, const Curve& b, const Contact& c)
 bool ShortContact::narrow() {
     const Interval rs = s_.range(), rt = t_.range();
     const auto residual = [&](const FixedCoordinate& a, const FixedCoordinate& b) {
-        return enclose_fixed(a.at(s_.mid) - b.at(t_.mid), 2 * budget::kShortError);
+        return enclose_evaluated(a.at(s_.mid) - b.at(t_.mid), 2 * budget::kShortError, 0);
     };
     const auto k = krawczyk(residual(ax_, bx_), residual(ay_, by_), derivative_over(a_, Axis::X, rs),
                             -derivative_over(b_, Axis::X, rt), derivative_over(a_, Axis::Y, rs),

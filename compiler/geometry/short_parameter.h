@@ -13,8 +13,11 @@ namespace fetexc {
 /// Coordinate in units of 2^-kFixedBits: planar coordinates (below 2^44) to far below anything doubles tell apart.
 using Fixed = __int128;
 
-/// Encloses v·2^-kFixedBits for all values within `error` units of v.
-Interval enclose_fixed(Fixed v, int error);
+using Unsigned128 = unsigned __int128;
+inline Unsigned128 magnitude(Fixed v) { return v < 0 ? -static_cast<Unsigned128>(v) : static_cast<Unsigned128>(v); }
+
+/// Encloses [lo, hi]·2^-bits.
+Interval enclose_fixed(Fixed lo, Fixed hi, int bits);
 
 /// The parameter mid·2^-kShortBits + rest, within (-2, 2).
 struct ShortParameter {
