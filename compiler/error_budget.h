@@ -66,7 +66,14 @@ inline constexpr double kPointWidth = 0x1p-40;
 /// both sides), doubled.
 inline constexpr double kRoundingWidth = 16 * kUnitRoundoff;
 
-/// Bits of the parameters used for that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
+/// Before that, in 128-bit integers: bits of the parameters, that a 64-bit integer holds up to ±2; what evaluation errs
+/// by, in units of 2^-kFixedBits (a cubic by Horner: three products, each rounded by a unit and then doubled); and the
+/// steps of Newton's interval operator, which gain about 2^40/condition each.
+inline constexpr int kShortBits = 62;
+inline constexpr int kShortError = 7;
+inline constexpr int kShortSteps = 4;
+
+/// Bits of the parameters beyond that: residuals of curves of size 2^44 are then exact to 2^-84 steps.
 inline constexpr int kPreciseBits = 128;
 
 /// Part of a Newton step by which the step goes on beyond the root it expects, so that the next exact sign closes the

@@ -345,16 +345,21 @@ void intersect_lines(const Curve& a, const Curve& b, std::vector<Contact>& found
 
 } // namespace
 
+std::optional<Krawczyk> krawczyk(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
+                                 const Interval& a21, const Interval& a22) {
+    const double det = a11.mid() * a22.mid() - a12.mid() * a21.mid();
+    if (det == 0 || !(det == det)) return {};
+    const Interval y11 = a22.mid() / det, y12 = -a12.mid() / det, y21 = -a21.mid() / det, y22 = a11.mid() / det;
+    return Krawczyk{y11 * fx + y12 * fy,      y21 * fx + y22 * fy,      Interval(1) - (y11 * a11 + y12 * a21),
+                    -(y11 * a12 + y12 * a22), -(y21 * a11 + y22 * a21), Interval(1) - (y21 * a12 + y22 * a22)};
+}
+
 bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
                           const Interval& a21, const Interval& a22, double rs, double rt) {
-    const double det = a11.mid() * a22.mid() - a12.mid() * a21.mid();
-    if (det == 0 || !(det == det)) return false;
-    const Interval y11 = a22.mid() / det, y12 = -a12.mid() / det, y21 = -a21.mid() / det, y22 = a11.mid() / det;
-    const Interval gs = y11 * fx + y12 * fy, gt = y21 * fx + y22 * fy;
-    const Interval e11 = Interval(1) - (y11 * a11 + y12 * a21), e12 = -(y11 * a12 + y12 * a22);
-    const Interval e21 = -(y21 * a11 + y22 * a21), e22 = Interval(1) - (y21 * a12 + y22 * a22);
-    const double ks = gs.magnitude() + e11.magnitude() * rs + e12.magnitude() * rt;
-    const double kt = gt.magnitude() + e21.magnitude() * rs + e22.magnitude() * rt;
+    const std::optional<Krawczyk> k = krawczyk(fx, fy, a11, a12, a21, a22);
+    if (!k) return false;
+    const double ks = k->gs.magnitude() + k->e11.magnitude() * rs + k->e12.magnitude() * rt;
+    const double kt = k->gt.magnitude() + k->e21.magnitude() * rs + k->e22.magnitude() * rt;
     constexpr double slack = 1 + 16 * budget::kUnitRoundoff; // roundings of the two sums above
     return ks * slack < rs && kt * slack < rt;
 }

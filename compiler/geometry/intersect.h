@@ -12,8 +12,17 @@
 
 namespace fetexc {
 
-/// Krawczyk operator for two equations in two unknowns: f encloses the residual in the middle of the box of radii (rs,
-/// rt), a11 … a22 the Jacobian over it. True: the box is mapped strictly into itself and holds exactly one zero.
+/// Krawczyk operator for two equations in two unknowns: a zero at m + d, in a box over which a11 … a22 enclose the
+/// Jacobian, has d in e·d − g, when f encloses the residual at m.
+struct Krawczyk {
+    Interval gs, gt, e11, e12, e21, e22;
+};
+/// None: the Jacobian in the middle is singular.
+std::optional<Krawczyk> krawczyk(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
+                                 const Interval& a21, const Interval& a22);
+
+/// The same for the middle of the box of radii (rs, rt). True: it is mapped strictly into itself and holds exactly one
+/// zero.
 bool krawczyk_maps_inside(const Interval& fx, const Interval& fy, const Interval& a11, const Interval& a12,
                           const Interval& a21, const Interval& a22, double rs, double rt);
 

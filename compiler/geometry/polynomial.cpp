@@ -53,11 +53,16 @@ Polynomial minus(Polynomial p, const mpz_class& v) {
 
 mpz_class to_mpz(std::int64_t v) { return mpz_class(static_cast<long>(v)); }
 
-Polynomial power_basis(const Curve& c, Axis axis) {
+std::array<std::int64_t, 4> power_coefficients(const Curve& c, Axis axis) {
     const auto v = [&](std::size_t i) { return axis == Axis::X ? c.p[i].x : c.p[i].y; }; // below 2^43
     std::array<std::int64_t, 4> k{v(0), v(1) - v(0)};
     if (c.degree == 2) k = {v(0), 2 * (v(1) - v(0)), v(2) - 2 * v(1) + v(0)};
     if (c.degree == 3) k = {v(0), 3 * (v(1) - v(0)), 3 * (v(2) - 2 * v(1) + v(0)), v(3) - 3 * v(2) + 3 * v(1) - v(0)};
+    return k;
+}
+
+Polynomial power_basis(const Curve& c, Axis axis) {
+    const std::array<std::int64_t, 4> k = power_coefficients(c, axis);
     std::size_t size = k.size();
     while (size > 0 && k[size - 1] == 0)
         --size;

@@ -4,6 +4,7 @@
 
 #include <gmpxx.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,9 @@ Polynomial minus(Polynomial p, const mpz_class& v);
 
 mpz_class to_mpz(std::int64_t v);
 
-/// Power basis of one coordinate (absolute), trimmed.
+/// Coefficients of t^i of one coordinate (absolute), below 2^48.
+std::array<std::int64_t, 4> power_coefficients(const Curve& c, Axis axis);
+/// The same as a polynomial, trimmed.
 Polynomial power_basis(const Curve& c, Axis axis);
 
 /// R(s): vanishes exactly where A(s) lies on the algebraic curve of B (Bezout resultant). Empty when A lies on it

@@ -2,7 +2,6 @@
 #include "compiler/geometry/precise.h"
 
 #include <array>
-#include <bit>
 #include <cstdlib>
 
 #include "compiler/geometry/dyadic_roots.h"
@@ -166,9 +165,6 @@ mpq_class line_parameter(const Curve& a, const Curve& b) {
     return s;
 }
 
-using Unsigned128 = unsigned __int128;
-Unsigned128 magnitude(Fixed v) { return v < 0 ? -static_cast<Unsigned128>(v) : static_cast<Unsigned128>(v); }
-
 /// floor(2^64·part·length/whole); |part| ≤ |whole|.
 Fixed scaled_share(Fixed part, Fixed whole, std::int64_t length) {
     static_assert(GMP_NUMB_BITS == 64);
@@ -186,22 +182,13 @@ Fixed scaled_share(Fixed part, Fixed whole, std::int64_t length) {
     return negative ? -share - (exact ? 0 : 1) : share;
 }
 
-/// v·2^-64.
-Interval enclose_units(Fixed v) {
-    const Unsigned128 m = magnitude(v);
-    const auto high = static_cast<std::uint64_t>(m >> 64), low = static_cast<std::uint64_t>(m);
-    const int bits = high != 0 ? 64 + std::bit_width(high) : std::bit_width(low), dropped = std::max(0, bits - 53);
-    const double d = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(m >> dropped)), dropped - 64);
-    return v < 0 ? Interval(widen_down(-d), widen_up(-d)) : Interval(widen_down(d), widen_up(d));
-}
-
 /// Exact quotients, rounded outwards.
 PointEnclosure line_crossing(const Curve& a, const Curve& b) {
     const Fixed from = area(b.p[0], b.p[1], a.p[0]), whole = from - area(b.p[0], b.p[1], a.p[1]);
     const auto at = [&](std::int64_t v0, std::int64_t v1) {
         if (v0 == v1) return Interval(static_cast<double>(v0));
         const Fixed v = (static_cast<Fixed>(v0) << 64) + scaled_share(from, whole, v1 - v0);
-        return Interval(enclose_units(v).lo, enclose_units(v + 1).hi);
+        return enclose_fixed(v, v + 1, 64);
     };
     const PointEnclosure on_a{at(a.p[0].x, a.p[1].x), at(a.p[0].y, a.p[1].y)};
     // A level or upright partner gives its coordinate exactly.
@@ -241,12 +228,28 @@ FixedPoint fixed_at(const Curve& c, const Dyadic& t) {
             to_fixed(evaluate_at(power_basis(c, Axis::Y), t), 3 * t.bits)};
 }
 
+/// As tight as doubles are, where a few steps get there. None when they leave it too wide.
+std::optional<PointEnclosure> short_point(const Curve& a, const Curve& b, double size, Contact& c) {
+    ShortContact near(a, b, c);
+    PointEnclosure p;
+    for (int k = 0; k < budget::kShortSteps; ++k) {
+        if (!near.narrow()) return {};
+        p = {near.along(Axis::X), near.along(Axis::Y)};
+        if (precise_enough(p, 0)) break;
+    }
+    if (!precise_enough(p, size)) return {};
+    c = near.contact();
+    return p;
+}
+
 } // namespace
 
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
     if (a.degree == 1 && b.degree == 1) return line_crossing(a, b);
     const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
-    if (precise_enough(plain, std::max(size_of(a), size_of(b)))) return plain;
+    const double size = std::max(size_of(a), size_of(b));
+    if (precise_enough(plain, size)) return plain;
+    if (const auto p = short_point(a, b, size, c)) return *p;
     ContactRefiner refiner(a, b, budget::kPreciseBits);
     if (!refiner.run(c)) return plain;
     c = {range_of(refiner.s()), range_of(refiner.t())};

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compiler/geometry/intersect.h"
+#include "compiler/geometry/short_parameter.h"
 
 namespace fetexc {
 
@@ -16,7 +17,8 @@ struct PointEnclosure {
 };
 
 /// The common point of a certified contact. Plain evaluation first; when that is wider than budget::kPointWidth of the
-/// curves' size, the contact is narrowed by Newton steps on exact residuals, certified again.
+/// curves' size, the contact is narrowed: in 128-bit integers, or else by Newton steps on exact residuals, certified
+/// again.
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c);
 
 /// The point of a monotone stretch where the coordinate equals v; t: its parameter as parameter_at() gives it,
@@ -27,8 +29,6 @@ PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t);
 /// narrowed where needed.
 PointEnclosure extremum_point(const Curve& c, Interval& t);
 
-/// Coordinate in units of 2^-kFixedBits: planar coordinates (below 2^44) to far below anything doubles tell apart.
-using Fixed = __int128;
 struct FixedPoint {
     Fixed x = 0, y = 0;
 };
