@@ -64,13 +64,36 @@ WidthPoint PictureBoundary::between(std::size_t a, std::size_t b, double t) cons
     return {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
-/// A colour halfway between the two, as of a third region between theirs, is the first one's in spite of roundings.
-bool PictureBoundary::takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const {
-    const TexturePoint at = subject_.truth.to_texture(p);
-    const Rgba color = subject_.picture.at(at);
-    return color_distance(color, subject_.truth.color(first, at)) <=
-           color_distance(color, subject_.truth.color(second, at)) + budget::kColourTie;
-}
+/// Tells two results apart; solid ones are looked up once.
+class PictureBoundary::Pair {
+  public:
+    Pair(const Subject& subject, ResultId first, ResultId second)
+        : subject_(subject), first_(subject.truth, first), second_(subject.truth, second) {}
+
+    /// A colour halfway between the two, as of a third region between theirs, is the first one's in spite of roundings.
+    [[nodiscard]] bool takes_for_first(WidthPoint p) const {
+        const TexturePoint at = subject_.truth.to_texture(p);
+        const Rgba color = subject_.picture.at(at);
+        return color_distance(color, first_.at(at)) <= color_distance(color, second_.at(at)) + budget::kColourTie;
+    }
+
+  private:
+    class Paint {
+      public:
+        Paint(const Truth& truth, ResultId result)
+            : truth_(truth), result_(result), solid_(truth.is_solid(result)),
+              color_(solid_ ? truth.color(result, {}) : Rgba{}) {}
+        [[nodiscard]] Rgba at(TexturePoint p) const { return solid_ ? color_ : truth_.color(result_, p); }
+
+      private:
+        const Truth& truth_;
+        ResultId result_;
+        bool solid_;
+        Rgba color_;
+    };
+    const Subject& subject_;
+    Paint first_, second_;
+};
 
 bool PictureBoundary::on_canvas(WidthPoint p) const {
     return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= subject_.truth.height();
@@ -82,7 +105,8 @@ double PictureBoundary::change_between(std::size_t a, std::size_t b) const {
     const TexturePoint middle = subject_.truth.to_texture(between(a, b, 0.5));
     if (contrast(subject_.truth.color(first, middle), subject_.truth.color(second, middle)) < subject_.min_contrast)
         return kNoChange;
-    return bisect([&](double t) { return takes_for_first(between(a, b, t), first, second); });
+    const Pair pair(subject_, first, second);
+    return bisect([&](double t) { return pair.takes_for_first(between(a, b, t)); });
 }
 
 Distances PictureBoundary::summary(std::vector<Sample> all) {
@@ -179,8 +203,8 @@ double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
 double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
     const VisibleEdge& e = subject_.truth.edges()[s.edge];
     const WidthPoint p = s.place, normal = s.normal;
-    const bool first = takes_for_first(p, e.left, e.right);
-    const ResultId own = first ? e.left : e.right, other = first ? e.right : e.left;
+    const bool first = Pair(subject_, e.left, e.right).takes_for_first(p);
+    const Pair pair(subject_, first ? e.left : e.right, first ? e.right : e.left);
     const auto along = [&](std::size_t k, double d) {
         const WidthPoint way = kStar[k];
         return WidthPoint{p.x + d * (normal.x * way.x - normal.y * way.y),
@@ -193,9 +217,9 @@ double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
         const std::size_t directions = to < 1.5 * pixel ? kStar.size() : 2;
         double found = kInfinity;
         for (std::size_t k = 0; k < directions; ++k) {
-            if (!on_canvas(along(k, to)) || takes_for_first(along(k, to), own, other)) continue;
+            if (!on_canvas(along(k, to)) || pair.takes_for_first(along(k, to))) continue;
             const double t =
-                bisect([&](double part) { return takes_for_first(along(k, from + part * (to - from)), own, other); });
+                bisect([&](double part) { return pair.takes_for_first(along(k, from + part * (to - from))); });
             found = std::min(found, from + t * (to - from));
         }
         if (found < kInfinity) return found;

@@ -23,10 +23,10 @@ class PictureBoundary {
         bool beyond = false;
         WidthPoint place;
     };
+    class Pair;
     static Distances summary(std::vector<Sample> all);
     [[nodiscard]] bool on_canvas(WidthPoint p) const;
     [[nodiscard]] double change_between(std::size_t a, std::size_t b) const;
-    [[nodiscard]] bool takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const;
     [[nodiscard]] std::size_t changes_around(std::uint32_t i, std::uint32_t j, std::array<WidthPoint, 4>& out) const;
     [[nodiscard]] WidthPoint between(std::size_t a, std::size_t b, double t) const;
     [[nodiscard]] double distance_in_square(std::uint32_t i, std::uint32_t j, WidthPoint p) const;

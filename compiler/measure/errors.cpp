@@ -15,6 +15,8 @@
 namespace fetexc::measure {
 namespace {
 
+constexpr std::size_t kRowsPerTask = 16;
+
 /// Colours are compared over black and over white.
 double squared_error(const Rgba& a, const Rgba& b) {
     double sum = 0;
@@ -27,21 +29,26 @@ double squared_error(const Rgba& a, const Rgba& b) {
 double psnr_of(const Subject& subject, const TruthSamples& truth, unsigned intervals) {
     const GridSize n = truth.pixels();
     std::vector<double> rows(n.height, 0);
-    parallel_for(n.height, subject.threads, [&](std::size_t row) {
-        const auto j = static_cast<std::uint32_t>(row);
+    parallel_for_chunks(n.height, kRowsPerTask, subject.threads, [&](std::size_t first, std::size_t end) {
         const double w = 1.0 / n.width, h = 1.0 / n.height;
-        const auto corner = [&](std::uint32_t i, std::uint32_t below) {
-            return subject.picture.at({i * w, (j + below) * h});
+        const auto line = [&](std::size_t y) {
+            std::vector<Rgba> corners;
+            for (std::uint32_t i = 0; i <= n.width; ++i)
+                corners.push_back(subject.picture.at({i * w, static_cast<double>(y) * h}));
+            return corners;
         };
-        PixelCorners corners{corner(0, 0), {}, corner(0, 1), {}};
-        for (std::uint32_t i = 0; i < n.width; ++i) {
-            corners[1] = corner(i + 1, 0), corners[3] = corner(i + 1, 1);
-            const std::size_t k = truth.index(i, j);
-            Rgba mean = subject.picture.at({(i + 0.5) * w, (j + 0.5) * h});
-            if (truth.crossed(k) || !is_linear(corners, mean))
-                mean = supersampled(subject.picture, {i * w, j * h, w, h}, intervals);
-            rows[row] += squared_error(mean, truth.mean(k));
-            corners[0] = corners[1], corners[2] = corners[3];
+        std::vector<Rgba> above = line(first);
+        for (std::size_t row = first; row < end; ++row) {
+            std::vector<Rgba> below = line(row + 1);
+            const auto j = static_cast<std::uint32_t>(row);
+            for (std::uint32_t i = 0; i < n.width; ++i) {
+                const std::size_t k = truth.index(i, j);
+                Rgba mean = subject.picture.at({(i + 0.5) * w, (j + 0.5) * h});
+                if (truth.crossed(k) || !is_linear({above[i], above[i + 1], below[i], below[i + 1]}, mean))
+                    mean = supersampled(subject.picture, {i * w, j * h, w, h}, intervals);
+                rows[row] += squared_error(mean, truth.mean(k));
+            }
+            above.swap(below);
         }
     });
     const double mse = std::accumulate(rows.begin(), rows.end(), 0.0) / (6.0 * static_cast<double>(truth.size()));
@@ -74,9 +81,7 @@ class FarPoints {
         if (nearest.edge != kNone && nearest.distance < distance_ - radius) return;
         for (std::uint32_t j = j0; j < j1; ++j) {
             for (std::uint32_t i = i0; i < i1; ++i) {
-                const TexturePoint p = samples_.point(i, j);
-                if (nearest.edge == kNone || truth_.nearest_edge(p, distance_).edge == kNone)
-                    visit(samples_.index(i, j), p);
+                if (nearest.edge == kNone || is_far(samples_.point(i, j), nearest.edge)) visit(i, j);
             }
         }
     }
@@ -84,22 +89,27 @@ class FarPoints {
     static constexpr std::uint32_t kSide = 8; ///< pixels
 
   private:
+    /// likely: an edge that may well be near.
+    [[nodiscard]] bool is_far(TexturePoint p, std::uint32_t likely) const {
+        return truth_.nearest_on(likely, p, distance_).edge == kNone && !truth_.edge_within(p, distance_);
+    }
+
     const Truth& truth_;
     const TruthSamples& samples_;
     double distance_;
 };
 
-ColorError color_error(const Subject& subject, const TruthSamples& samples) {
+ColorError color_error(const Subject& subject, const TruthSamples& samples, std::span<const double> errors) {
     const GridSize n = samples.pixels();
     const FarPoints far(subject.truth, samples, texel_side(subject.truth, subject.picture));
     std::vector<ColorError> rows((n.height + FarPoints::kSide - 1) / FarPoints::kSide);
     parallel_for(rows.size(), subject.threads, [&](std::size_t row) {
         ColorError& out = rows[row];
-        for (std::uint32_t i = 0; i < n.width; i += FarPoints::kSide) {
-            far.in_block(i, static_cast<std::uint32_t>(row) * FarPoints::kSide, [&](std::size_t k, TexturePoint p) {
-                const double error = contrast(subject.picture.at(p), subject.truth.color(samples.result(k), p));
+        for (std::uint32_t i0 = 0; i0 < n.width; i0 += FarPoints::kSide) {
+            far.in_block(i0, static_cast<std::uint32_t>(row) * FarPoints::kSide, [&](std::uint32_t i, std::uint32_t j) {
+                const double error = errors[samples.index(i, j)];
                 out.mean += error, ++out.points;
-                if (error > out.max) out.max = error, out.place = p;
+                if (error > out.max) out.max = error, out.place = samples.point(i, j);
             });
         }
     });
@@ -141,22 +151,23 @@ class PictureErrors {
         out.pixels = truth.pixels();
         out.pixels_per_texel = static_cast<double>(out.pixels.width) / subject_.picture.texels().width;
         if (wanted.psnr) out.psnr = psnr_of(subject_, truth, options_.supersample);
-        if (wanted.classes()) measure_classes(truth, out);
-        if (wanted.away) out.away = color_error(subject_, truth);
+        if (wanted.samples()) measure_samples(truth, out);
         return out;
     }
 
   private:
-    void measure_classes(const TruthSamples& truth, SizeErrors& out) const {
+    void measure_samples(const TruthSamples& truth, SizeErrors& out) const {
+        const Figures& wanted = options_.figures;
         const SampleGrid grid(subject_, truth);
-        if (options_.figures.misclassified) count_misclassified(grid, out);
-        if (options_.figures.boundary) {
+        if (wanted.misclassified) count_misclassified(grid, out);
+        if (wanted.boundary) {
             const PictureBoundary boundary(subject_, grid);
             out.to_truth = boundary.to_truth();
             out.to_picture = boundary.to_picture();
             out.edges_without_contrast = truth.edges_without_contrast();
         }
-        if (options_.figures.islands) out.islands = find_islands(subject_, grid);
+        if (wanted.away) out.away = color_error(subject_, truth, grid.color_errors());
+        if (wanted.islands) out.islands = find_islands(subject_, grid);
     }
 
     const MeasureOptions& options_;

@@ -38,10 +38,8 @@ struct Figures {
     bool misclassified = true, boundary = true, psnr = true, away = true, islands = true;
 
     static constexpr Figures none() { return {false, false, false, false, false}; }
-    /// What takes a class at every sample point.
-    [[nodiscard]] bool classes() const { return misclassified || boundary || islands; }
-    /// What takes the truth there.
-    [[nodiscard]] bool results() const { return classes() || away; }
+    /// Those that take the truth and the picture at every sample point.
+    [[nodiscard]] bool samples() const { return misclassified || boundary || away || islands; }
 };
 
 struct MeasureOptions {

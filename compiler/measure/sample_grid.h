@@ -34,12 +34,15 @@ class SampleGrid {
     }
     [[nodiscard]] ResultId truth(std::size_t k) const { return truth_.result(k); }
     [[nodiscard]] ResultId picture(std::size_t k) const { return picture_[k]; }
+    /// Largest difference of a channel between the picture and the truth at each point.
+    [[nodiscard]] std::span<const double> color_errors() const { return color_errors_; }
     /// Width units: the larger side.
     [[nodiscard]] double pixel_side() const { return truth_.pixel_side(); }
 
   private:
     const TruthSamples& truth_;
     std::vector<ResultId> picture_;
+    std::vector<double> color_errors_;
 };
 
 } // namespace fetexc::measure

@@ -58,8 +58,8 @@ Result<TruthSamples> TruthSamples::of(const Truth& truth, GridSize pixels, const
         if (!picture) return picture.error();
         samples.picture_ = std::move(picture).value();
     }
-    if (wanted.psnr || wanted.results()) samples.mark_crossed(truth);
-    if (wanted.results()) samples.ask_results(truth, options.threads);
+    if (wanted.psnr || wanted.samples()) samples.mark_crossed(truth);
+    if (wanted.samples()) samples.ask_results(truth, options.threads);
     if (wanted.boundary) samples.walk_edges(truth, options.min_contrast);
     return samples;
 }
