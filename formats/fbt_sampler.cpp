@@ -13,26 +13,27 @@ struct Point {
     double x = 0, y = 0;
 };
 
-Point decode_point(std::uint32_t word) { return {fbt_dequantise(word & 0xffffu), fbt_dequantise(word >> 16)}; }
-
 /// A query point in the frame of a ray: the ray runs along x, towards +x or −x. Rays along ±y see x and y swapped.
 struct Ray {
     Point p;
-    bool swapped = false;
+    std::uint32_t x_shift = 0; ///< where x is in a quantised point
     bool negative = false;
 
     Ray(double fx, double fy, std::uint32_t direction)
-        : p(direction < kFbtRayPosY ? Point{fx, fy} : Point{fy, fx}), swapped(direction >= kFbtRayPosY),
+        : p(direction < kFbtRayPosY ? Point{fx, fy} : Point{fy, fx}), x_shift(direction < kFbtRayPosY ? 0 : 16),
           negative((direction & 1u) != 0) {}
-    [[nodiscard]] Point to_frame(Point q) const { return swapped ? Point{q.y, q.x} : q; }
+    [[nodiscard]] double x_of(std::uint32_t word) const { return fbt_dequantise(word >> x_shift & 0xffffu); }
+    [[nodiscard]] double y_of(std::uint32_t word) const { return fbt_dequantise(word >> (16 - x_shift) & 0xffffu); }
 };
 
 /// A piece of degree 1…3 in the frame of a ray.
 struct Piece {
-    std::uint32_t degree = 1;
+    Piece(const std::uint32_t* words, std::uint32_t degree_of_run, const Ray& ray) : degree(degree_of_run) {
+        for (std::uint32_t n = 0; n <= degree; ++n)
+            c[n] = {ray.x_of(words[n]), ray.y_of(words[n])};
+    }
+    std::uint32_t degree;
     std::array<Point, 4> c;
-    [[nodiscard]] const Point& front() const { return c[0]; }
-    [[nodiscard]] const Point& back() const { return c[degree]; }
 };
 
 double lerp(double a, double b, double t) { return a + (b - a) * t; }
@@ -82,22 +83,22 @@ double crossing_x(const Piece& q, double y) {
 }
 
 /// The normative predicate. Half-open in y so that a ray through a shared end point counts it once; the convex hull's
-/// box settles most curves without solving (FBT §5).
-bool crosses(const Piece& q, const Ray& ray, FbtQueryStats& stats) {
-    const auto [y_min, y_max] = std::minmax(q.front().y, q.back().y);
+/// box settles most curves without solving (FBT §5). words: the piece's points.
+bool crosses(const std::uint32_t* words, std::uint32_t degree, const Ray& ray, FbtQueryStats& stats) {
     ++stats.pieces;
-    if ((ray.p.y >= y_min) == (ray.p.y >= y_max)) {
+    if ((ray.p.y >= ray.y_of(words[0])) == (ray.p.y >= ray.y_of(words[degree]))) {
         ++stats.outside;
         return false;
     }
-    const auto [left, right] = std::minmax_element(q.c.begin(), q.c.begin() + q.degree + 1,
-                                                   [](const Point& a, const Point& b) { return a.x < b.x; });
-    if (ray.p.x < left->x || ray.p.x >= right->x) {
+    double left = ray.x_of(words[0]), right = left;
+    for (std::uint32_t n = 1; n <= degree; ++n)
+        left = std::min(left, ray.x_of(words[n])), right = std::max(right, ray.x_of(words[n]));
+    if (ray.p.x < left || ray.p.x >= right) {
         ++stats.box;
-        return (ray.p.x < left->x) != ray.negative;
+        return (ray.p.x < left) != ray.negative;
     }
-    ++stats.solved[q.degree];
-    return (crossing_x(q, ray.p.y) > ray.p.x) != ray.negative;
+    ++stats.solved[degree];
+    return (crossing_x(Piece(words, degree, ray), ray.p.y) > ray.p.x) != ray.negative;
 }
 
 /// Whether an odd number of the run's pieces is crossed.
@@ -108,13 +109,8 @@ bool run_parity(const FbtTexture& texture, const std::uint32_t* entry, double fx
     // Consecutive pieces of a polyline share a point; curves take a whole record each.
     const std::size_t stride = degree == 1 ? 1 : 4;
     bool odd = false;
-    for (std::uint32_t k = 0; k < count; ++k, words += stride) {
-        Piece piece;
-        piece.degree = degree;
-        for (std::uint32_t n = 0; n <= degree; ++n)
-            piece.c[n] = ray.to_frame(decode_point(words[n]));
-        odd ^= crosses(piece, ray, stats);
-    }
+    for (std::uint32_t k = 0; k < count; ++k, words += stride)
+        odd ^= crosses(words, degree, ray, stats);
     return odd;
 }
 

@@ -59,11 +59,11 @@ bool Classifier::within_reach(const Candidate& candidate, TexturePoint p) const 
     });
 }
 
-ResultId Classifier::classify(TexturePoint p, ResultId expected, const Rgba& sampled) const {
+Classifier::Class Classifier::classify(TexturePoint p, ResultId expected, const Rgba& sampled) const {
     const Rgba truth = truth_.color(expected, p);
     double best = color_distance(sampled, truth);
+    if (best == 0) return {expected, 0};
     ResultId result = expected;
-    if (best == 0) return result;
     const WidthPoint w = truth_.to_width(p);
     for (const Candidate& candidate : cells_[index_of(w.y, rows_) * columns_ + index_of(w.x, columns_)]) {
         if (candidate.result == expected) continue;
@@ -74,7 +74,7 @@ ResultId Classifier::classify(TexturePoint p, ResultId expected, const Rgba& sam
             continue;
         best = distance, result = candidate.result;
     }
-    return result;
+    return {result, contrast(sampled, truth)};
 }
 
 } // namespace fetexc::measure

@@ -21,8 +21,12 @@ class Classifier {
   public:
     /// reach: width units.
     Classifier(const Truth& truth, double reach, double min_contrast);
+    struct Class {
+        ResultId result = 0;
+        double color_error = 0; ///< contrast of the sampled colour and the expected result's
+    };
     /// expected: the truth's result at the point.
-    [[nodiscard]] ResultId classify(TexturePoint p, ResultId expected, const Rgba& sampled) const;
+    [[nodiscard]] Class classify(TexturePoint p, ResultId expected, const Rgba& sampled) const;
 
   private:
     /// A result beside edges that may be within reach of a cell.

@@ -25,7 +25,9 @@ CanvasSegment scaled(const VisibleEdge& e, double factor) {
 } // namespace
 
 double WidthBox::distance(WidthPoint p) const {
-    return std::hypot(std::max({x0 - p.x, p.x - x1, 0.0}), std::max({y0 - p.y, p.y - y1, 0.0}));
+    const double dx = std::max({x0 - p.x, p.x - x1, 0.0}), dy = std::max({y0 - p.y, p.y - y1, 0.0});
+    if (dx == 0) return dy; // as hypot, which is slow
+    return dy == 0 ? dx : std::hypot(dx, dy);
 }
 
 WidthBox box_of(const VisibleEdge& e) {
@@ -128,6 +130,18 @@ EdgePoint EdgeIndex::nearest(WidthPoint p, double radius) const {
         }
     }
     return best;
+}
+
+bool EdgeIndex::any_within(WidthPoint p, double radius) const {
+    const Cells c = cells_of({p.x - radius, p.y - radius, p.x + radius, p.y + radius});
+    for (int y = c.y0; y <= c.y1; ++y) {
+        for (int x = c.x0; x <= c.x1; ++x) {
+            for (std::uint32_t e : cell(x, y)) {
+                if (boxes_[e].distance(p) < radius && nearest_on(e, p, radius).edge != kNone) return true;
+            }
+        }
+    }
+    return false;
 }
 
 void EdgeIndex::near(WidthPoint p, double radius, std::vector<std::uint32_t>& out) const {

@@ -25,6 +25,7 @@ class EdgeIndex {
     /// The edges must outlive the index.
     EdgeIndex(std::span<const VisibleEdge> edges, double height);
     [[nodiscard]] EdgePoint nearest(WidthPoint p, double radius) const;
+    [[nodiscard]] bool any_within(WidthPoint p, double radius) const;
     void near(WidthPoint p, double radius, std::vector<std::uint32_t>& out) const;
     /// Distance to one edge, below `radius`; else kNone.
     [[nodiscard]] EdgePoint nearest_on(std::uint32_t edge, WidthPoint p, double radius) const;

@@ -44,7 +44,7 @@ class Integrator {
     }
 
     [[nodiscard]] Rgba parts(const TexelMap& texel) const {
-        const TrapezoidAreas areas(map_, texel);
+        TrapezoidAreas areas(map_, texel);
         Rgba sum;
         for (const Trapezoid& t : texel.sweep.trapezoids) {
             const double share = areas.of(t).area / area_;

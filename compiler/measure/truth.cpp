@@ -60,6 +60,8 @@ EdgePoint Truth::nearest_on(std::uint32_t edge, TexturePoint p, double radius) c
     return impl_->index->nearest_on(edge, to_width(p), radius);
 }
 
+bool Truth::edge_within(TexturePoint p, double radius) const { return impl_->index->any_within(to_width(p), radius); }
+
 void Truth::edges_near(TexturePoint p, double radius, std::vector<std::uint32_t>& out) const {
     impl_->index->near(to_width(p), radius, out);
 }

@@ -64,6 +64,8 @@ class Truth {
     [[nodiscard]] EdgePoint nearest_edge(TexturePoint p, double radius) const;
     /// The same for one edge.
     [[nodiscard]] EdgePoint nearest_on(std::uint32_t edge, TexturePoint p, double radius) const;
+    /// Whether nearest_edge() would find any.
+    [[nodiscard]] bool edge_within(TexturePoint p, double radius) const;
     /// Edges whose boxes come within the radius (so all that do, and perhaps some more); ascending.
     void edges_near(TexturePoint p, double radius, std::vector<std::uint32_t>& out) const;
 

@@ -64,7 +64,8 @@ const Curve& curve_of(const PlanarMap& map, const TexelMap& texel, std::uint32_t
 
 TrapezoidAreas::TrapezoidAreas(const PlanarMap& map, const TexelMap& texel)
     : map_(map), texel_(texel), x0_(map.grid().px * texel.i), y0_(map.grid().py * texel.j),
-      width_(static_cast<Real>(map.grid().px)), height_(static_cast<Real>(map.grid().py)) {}
+      width_(static_cast<Real>(map.grid().px)), height_(static_cast<Real>(map.grid().py)),
+      meetings_(texel.graph.edges.size()) {}
 
 Real TrapezoidAreas::level(std::uint32_t node, bool top) const {
     if (node == kNone) return top ? 0 : height_;
@@ -77,11 +78,20 @@ Real TrapezoidAreas::level_error(std::uint32_t node) const {
 }
 
 /// ∫ x dy between two levels: a polynomial of degree 5 in the parameter at most, so three Gauss points are exact.
-Real TrapezoidAreas::side_integral(std::uint32_t edge, bool right, Real y0, Real y1) const {
+Real TrapezoidAreas::side_integral(std::uint32_t edge, bool right, Real y0, Real y1) {
     if (edge == kNone) return right ? width_ * (y1 - y0) : 0;
     const Stretch s = map_.stretch_of(texel_.sub_edges[texel_.graph.edges[edge].sub]);
     const Local x = local(*s.curve, Axis::X, x0_), y = local(*s.curve, Axis::Y, y0_), dy = y.derivative();
-    const Real t0 = parameter_at(y, dy, s.range, y0), t1 = parameter_at(y, dy, s.range, y1);
+    const auto parameter = [&](Real level) {
+        auto& [last, before] = meetings_[edge];
+        if (before.level == level) return before.parameter;
+        if (last.level != level) {
+            before = last;
+            last = {level, parameter_at(y, dy, s.range, level)};
+        }
+        return last.parameter;
+    };
+    const Real t0 = parameter(y0), t1 = parameter(y1);
     const Real half = (t1 - t0) / 2, middle = (t0 + t1) / 2, reach = std::sqrt(static_cast<Real>(0.6L)) * half;
     Real sum = 8 * x.at(middle) * dy.at(middle);
     for (const Real t : {middle - reach, middle + reach})
@@ -106,7 +116,7 @@ Real TrapezoidAreas::side_error(std::uint32_t edge, Real height) const {
 
 /// A level is a double inside its enclosure, so it errs by the enclosure's width (and one rounding of the subtraction).
 /// The result is rounded to double, and once more when it is added up.
-BoundedArea TrapezoidAreas::of(const Trapezoid& t) const {
+BoundedArea TrapezoidAreas::of(const Trapezoid& t) {
     const Real y0 = level(t.top_node, true), y1 = level(t.bottom_node, false), height = std::fabs(y1 - y0);
     const Real area = side_integral(t.right, true, y0, y1) - side_integral(t.left, false, y0, y1);
     const Real levels = level_error(t.top_node) + level_error(t.bottom_node) +
