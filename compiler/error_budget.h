@@ -81,9 +81,9 @@ inline constexpr int kPreciseBits = 128;
 inline constexpr double kNewtonOvershoot = 0x1p-20;
 
 /// Newton on exact residuals gains about 2^50/condition a step; it stops at steps of 2^(kPreciseSlack − bits), or after
-/// so many.
+/// so many: far from two roots close together each step only halves the distance.
 inline constexpr int kPreciseSlack = 18;
-inline constexpr int kPreciseSteps = 16;
+inline constexpr int kPreciseSteps = 64;
 
 /// Coordinates for ordering points that doubles can't tell apart: multiples of 2^-72 steps, from parameters of 192 bits
 /// (error 3·2^44·2^-174 = 2^-128 steps).

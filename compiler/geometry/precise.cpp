@@ -104,7 +104,8 @@ class ContactRefiner {
         double ds = 0, dt = 0;
         for (int k = 0; k < budget::kPreciseSteps; ++k) {
             if (!step(ds, dt)) return false;
-            if (ds <= stop_ && dt <= stop_) break;
+            converged_ = ds <= stop_ && dt <= stop_;
+            if (converged_) break;
         }
         s_.radius = 4 * ds + stop_, t_.radius = 4 * dt + stop_;
         // Another root can't be meant: the contact is alone in its enclosures, which hold this box.
@@ -113,6 +114,8 @@ class ContactRefiner {
 
     [[nodiscard]] const Dyadic& s() const { return s_; }
     [[nodiscard]] const Dyadic& t() const { return t_; }
+    /// The last step was as short as it has to be; without that the box holds the contact, but may be wide.
+    [[nodiscard]] bool converged() const { return converged_; }
 
   private:
     struct Residual {
@@ -147,6 +150,7 @@ class ContactRefiner {
 
     int bits_;
     double stop_;
+    bool converged_ = false;
     const Curve &a_, &b_;
     Polynomial ax_, ay_, bx_, by_;
     Dyadic s_, t_;
@@ -286,7 +290,7 @@ std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, cons
         return NarrowContact{{s, s}, {t, t}};
     }
     ContactRefiner refiner(a, b, budget::kFixedParameterBits);
-    if (!refiner.run(c)) return {};
+    if (!refiner.run(c) || !refiner.converged()) return {};
     return NarrowContact{rational_range(refiner.s()), rational_range(refiner.t())};
 }
 

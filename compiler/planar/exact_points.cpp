@@ -48,13 +48,6 @@ AlgebraicNumber crossing_parameter(const ArcSet& set, const Vertex& v, std::uint
     return out;
 }
 
-/// From what defines the vertex; none where that is degenerate.
-std::optional<FixedPoint> defined_point(const ArcSet& set, const Vertex& v) {
-    if (v.integral) return fixed(v.point);
-    if (const auto narrow = narrowed(set, v)) return fixed_contact(set.curves[v.a], *narrow);
-    return v.a != kNone && v.b == kNone ? fixed_extremum(set.curves[v.a], v.s) : std::nullopt;
-}
-
 // --- lines: parameters are ratios of integers below 2^91
 
 struct Ratio {
@@ -98,9 +91,10 @@ Fixed fixed_from(double v) {
            static_cast<Fixed>(std::ldexp(v - whole, budget::kFixedBits));
 }
 
-FixedPoint fixed_point(const ArcSet& set, const Vertex& v) {
-    const std::optional<FixedPoint> p = defined_point(set, v);
-    return p ? *p : FixedPoint{fixed_from(v.x.mid()), fixed_from(v.y.mid())};
+std::optional<FixedPoint> fixed_point(const ArcSet& set, const Vertex& v) {
+    if (v.integral) return fixed(v.point);
+    if (const auto narrow = narrowed(set, v)) return fixed_contact(set.curves[v.a], *narrow);
+    return v.a != kNone && v.b == kNone ? fixed_extremum(set.curves[v.a], v.s) : std::nullopt;
 }
 
 int certain_sign(Fixed difference) {
@@ -129,7 +123,7 @@ AlgebraicCoordinate algebraic_coordinate(const ArcSet& set, const Vertex& v, Axi
 std::optional<int> compare_coordinates(const ArcSet& set, const Vertex& a, const Vertex& b, Axis axis) {
     if (const int c = compare(along(a, axis), along(b, axis)); c != 0) return c;
     if (a.integral && b.integral) return 0;
-    const std::optional<FixedPoint> p = defined_point(set, a), q = defined_point(set, b);
+    const std::optional<FixedPoint> p = fixed_point(set, a), q = fixed_point(set, b);
     if (p && q) {
         if (const int c = certain_sign(along(*p, axis) - along(*q, axis)); c != 0) return c;
     }
@@ -140,7 +134,7 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
     const auto level = static_cast<double>(v);
     if (const int c = compare(along(a, axis), Interval(level)); c != 0) return c;
     if (along(a, axis).lo == along(a, axis).hi) return 0;
-    if (const std::optional<FixedPoint> p = defined_point(set, a)) {
+    if (const std::optional<FixedPoint> p = fixed_point(set, a)) {
         if (const int c = certain_sign(along(*p, axis) - (static_cast<Fixed>(v) << budget::kFixedBits)); c != 0)
             return c;
     }

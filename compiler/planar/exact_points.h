@@ -12,8 +12,8 @@ namespace fetexc {
 
 Fixed fixed_from(double v);
 
-/// Coordinates rounded to 2^-kFixedBits (nearest doubles where the definition is degenerate).
-FixedPoint fixed_point(const ArcSet& set, const Vertex& v);
+/// Coordinates rounded to 2^-kFixedBits, from what defines the vertex; none where that is too badly conditioned.
+std::optional<FixedPoint> fixed_point(const ArcSet& set, const Vertex& v);
 
 /// For exact comparisons.
 AlgebraicCoordinate algebraic_coordinate(const ArcSet& set, const Vertex& v, Axis axis);

@@ -17,7 +17,7 @@ mpq_class to_rational(Fixed v) {
 
 } // namespace
 
-const FixedPoint& NodeOrder::fixed(std::uint32_t node) {
+const std::optional<FixedPoint>& NodeOrder::fixed(std::uint32_t node) {
     const auto it = fixed_.find(node);
     return it != fixed_.end() ? it->second : fixed_.emplace(node, map_.fixed(node)).first->second;
 }
@@ -31,8 +31,8 @@ int NodeOrder::compare(std::uint32_t a, std::uint32_t b, Axis axis) {
     const Interval &u = axis == Axis::X ? p.x_range : p.y_range, &v = axis == Axis::X ? q.x_range : q.y_range;
     if (const int c = fetexc::compare(u, v); c != 0) return c;
     if (u.lo == u.hi && v.lo == v.hi) return 0;
-    const FixedPoint s = fixed(a), t = fixed(b);
-    const int c = certain_sign(axis == Axis::X ? s.x - t.x : s.y - t.y);
+    const std::optional<FixedPoint> s = fixed(a), t = fixed(b);
+    const int c = s && t ? certain_sign(axis == Axis::X ? s->x - t->x : s->y - t->y) : 0;
     return c != 0 ? c : compare_exactly(a, b, axis);
 }
 
@@ -66,8 +66,9 @@ void NodeOrder::separate(std::uint32_t a, std::uint32_t b, const AlgebraicCoordi
 
 mpq_class NodeOrder::coordinate(std::uint32_t node, Axis axis) {
     if (const auto it = fine_.find({node, axis}); it != fine_.end()) return it->second.value;
-    const FixedPoint& p = fixed(node);
-    return to_rational(axis == Axis::X ? p.x : p.y);
+    if (const std::optional<FixedPoint>& p = fixed(node)) return to_rational(axis == Axis::X ? p->x : p->y);
+    const GridNode& n = map_.node(node);
+    return mpq_class(axis == Axis::X ? n.x : n.y);
 }
 
 bool NodeOrder::before(std::uint32_t a, std::uint32_t b) {

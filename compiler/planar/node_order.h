@@ -35,13 +35,13 @@ class NodeOrder {
 
   private:
     bool before(std::uint32_t a, std::uint32_t b);
-    const FixedPoint& fixed(std::uint32_t node);
+    const std::optional<FixedPoint>& fixed(std::uint32_t node);
     int compare_exactly(std::uint32_t a, std::uint32_t b, Axis axis);
     void separate(std::uint32_t a, std::uint32_t b, const AlgebraicCoordinate& p, const AlgebraicCoordinate& q);
 
     const PlanarMap& map_;
     PlanarStats& stats_;
-    std::unordered_map<std::uint32_t, FixedPoint> fixed_; ///< remembered
+    std::unordered_map<std::uint32_t, std::optional<FixedPoint>> fixed_; ///< remembered
     struct Fine {
         int bits = 0;
         mpq_class value;

@@ -356,13 +356,12 @@ Result<PlanarMap> PlanarMap::build(const Scene& scene, const Grid& grid, unsigne
     return map;
 }
 
-FixedPoint PlanarMap::fixed(std::uint32_t n) const {
+std::optional<FixedPoint> PlanarMap::fixed(std::uint32_t n) const {
     const std::size_t vertices = arrangement_.set.vertices.size();
     if (n < vertices) return fixed_point(arrangement_.set, arrangement_.set.vertices[n]);
     const LineCrossing& c = line_crossings_[n - vertices];
     const Curve& curve = arrangement_.set.curves[arrangement_.set.arcs[arrangement_.edges[c.edge].arc].curve];
-    const std::optional<FixedPoint> p = fixed_level(curve, c.axis, c.level, c.t);
-    return p ? *p : FixedPoint{fixed_from(nodes_[n].x), fixed_from(nodes_[n].y)};
+    return fixed_level(curve, c.axis, c.level, c.t);
 }
 
 AlgebraicCoordinate PlanarMap::algebraic(std::uint32_t n, Axis axis) const {
@@ -391,11 +390,12 @@ bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across
     const GridNode &p = nodes_[a.node], &q = nodes_[b.node];
     const Interval &u = across == Axis::X ? p.y_range : p.x_range, &v = across == Axis::X ? q.y_range : q.x_range;
     if (const int c = compare(u, v); c != 0) return c < 0;
-    const FixedPoint s = fixed(a.node), t = fixed(b.node);
-    const Fixed difference = across == Axis::X ? s.y - t.y : s.x - t.x;
-    if (const int c = certain_sign(difference); c != 0) return c < 0;
-    return compare(algebraic(a.node, other(across)), algebraic(b.node, other(across)))
-               .value_or(difference < 0 ? -1 : 1) < 0;
+    const std::optional<FixedPoint> s = fixed(a.node), t = fixed(b.node);
+    if (s && t) {
+        if (const int c = certain_sign(across == Axis::X ? s->y - t->y : s->x - t->x); c != 0) return c < 0;
+    }
+    const std::optional<int> c = compare(algebraic(a.node, other(across)), algebraic(b.node, other(across)));
+    return c.value_or(u.mid() < v.mid() ? -1 : 1) < 0;
 }
 
 std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) const {

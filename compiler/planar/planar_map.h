@@ -73,8 +73,8 @@ class PlanarMap {
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
     [[nodiscard]] const GridNode& node(std::uint32_t n) const { return nodes_[n]; }
-    /// Coordinates of a node to 2^-kFixedBits: exact arithmetic, microseconds.
-    [[nodiscard]] FixedPoint fixed(std::uint32_t n) const;
+    /// Coordinates of a node to 2^-kFixedBits: exact arithmetic, microseconds. None where that doesn't get so far.
+    [[nodiscard]] std::optional<FixedPoint> fixed(std::uint32_t n) const;
     /// The same as algebraic numbers, for exact comparisons: up to milliseconds.
     [[nodiscard]] AlgebraicCoordinate algebraic(std::uint32_t n, Axis axis) const;
     /// Position of a node on a line across the axis (X: a vertical line).

@@ -31,7 +31,9 @@ Levels levels_of(const PlanarMap& map, const TexelMap& texel, std::uint32_t node
     const std::uint32_t n = texel.graph.nodes[node];
     const Interval& y = map.node(n).y_range;
     if (!finely || y.lo == y.hi) return {scaled(y.lo), scaled(y.hi)};
-    const mpz_class v = from_fixed(map.fixed(n).y), slack = mpz_class(8) << (kPointBits - budget::kFixedBits);
+    const std::optional<FixedPoint> fixed = map.fixed(n);
+    if (!fixed) return {scaled(y.lo), scaled(y.hi)};
+    const mpz_class v = from_fixed(fixed->y), slack = mpz_class(8) << (kPointBits - budget::kFixedBits);
     return {v - slack, v + slack};
 }
 
