@@ -57,19 +57,24 @@ double solve_quadratic(const Piece& q, double y) {
 /// Root of the y-monotone cubic: Newton kept inside a bracket, bisection where a step would leave it. Stops when t no
 /// longer moves. The bracket test includes its ends: a converged step must not jump back to the middle.
 double solve_cubic(const Piece& q, double y) {
+    constexpr int kSteps = 128; // bisection alone needs 53
     const double up = q.c[3].y >= q.c[0].y ? 1.0 : -1.0;
     const double a = up * (q.c[3].y - q.c[0].y + 3 * (q.c[1].y - q.c[2].y));
     const double b = up * 3 * (q.c[0].y - 2 * q.c[1].y + q.c[2].y);
     const double c = up * 3 * (q.c[1].y - q.c[0].y);
     const double d = up * (q.c[0].y - y);
     double low = 0, high = 1, t = 0.5;
-    for (int step = 0; step < 128; ++step) { // bisection alone needs 53
+    std::array<double, 3> last{}; ///< t, low and high when the step before began
+    for (int step = 0; step < kSteps; ++step) {
         const double f = ((a * t + b) * t + c) * t + d;
+        const std::array<double, 3> now{t, low, high};
         (f < 0 ? low : high) = t;
         const double newton = t - f / ((3 * a * t + 2 * b) * t + c);
         const double next = newton >= low && newton <= high ? newton : 0.5 * (low + high);
         if (next == t) break;
-        t = next;
+        // Two neighbours may take turns for ever: what the last step would end on is known.
+        if (last == std::array{next, low, high}) return (kSteps - step) % 2 != 0 ? next : t;
+        last = now, t = next;
     }
     return t;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "compiler/measure/boundary.h"
 #include "compiler/measure/islands.h"
@@ -141,9 +142,10 @@ SizeErrors not_measured(const Figures& wanted) {
 class PictureErrors {
   public:
     PictureErrors(const Truth& truth, const Picture& picture, const MeasureOptions& options)
-        : options_(options), reach_(options.reach * texel_side(truth, picture)),
-          classifier_(truth, reach_, options.min_contrast),
-          subject_{truth, picture, classifier_, reach_, options.min_contrast, options.threads} {}
+        : options_(options), subject_{truth, picture, options.reach * texel_side(truth, picture), options.min_contrast,
+                                      options.threads} {
+        if (options.figures.samples()) classifier_.emplace(truth, subject_.reach, options.min_contrast);
+    }
 
     [[nodiscard]] SizeErrors at(const TruthSamples& truth) const {
         const Figures& wanted = options_.figures;
@@ -158,7 +160,7 @@ class PictureErrors {
   private:
     void measure_samples(const TruthSamples& truth, SizeErrors& out) const {
         const Figures& wanted = options_.figures;
-        const SampleGrid grid(subject_, truth);
+        const SampleGrid grid(subject_, *classifier_, truth);
         if (wanted.misclassified) count_misclassified(grid, out);
         if (wanted.boundary) {
             const PictureBoundary boundary(subject_, grid);
@@ -171,9 +173,8 @@ class PictureErrors {
     }
 
     const MeasureOptions& options_;
-    double reach_;
-    Classifier classifier_;
     Subject subject_;
+    std::optional<Classifier> classifier_; ///< if anything takes one
 };
 
 } // namespace

@@ -5,7 +5,7 @@
 
 namespace fetexc::measure {
 
-SampleGrid::SampleGrid(const Subject& subject, const TruthSamples& truth)
+SampleGrid::SampleGrid(const Subject& subject, const Classifier& classifier, const TruthSamples& truth)
     : truth_(truth), picture_(truth.size()), color_errors_(truth.size()) {
     const GridSize pixels = truth.pixels();
     parallel_for(pixels.height, subject.threads, [&](std::size_t row) {
@@ -13,7 +13,7 @@ SampleGrid::SampleGrid(const Subject& subject, const TruthSamples& truth)
         for (std::uint32_t i = 0; i < pixels.width; ++i) {
             const std::size_t k = index(i, j);
             const TexturePoint p = point(i, j);
-            const Classifier::Class c = subject.classifier.classify(p, truth.result(k), subject.picture.at(p));
+            const Classifier::Class c = classifier.classify(p, truth.result(k), subject.picture.at(p));
             picture_[k] = c.result, color_errors_[k] = c.color_error;
         }
     });

@@ -13,7 +13,6 @@ namespace fetexc::measure {
 struct Subject {
     const Truth& truth;
     const Picture& picture;
-    const Classifier& classifier;
     double reach; ///< width units
     double min_contrast;
     unsigned threads;
@@ -21,7 +20,7 @@ struct Subject {
 
 class SampleGrid {
   public:
-    SampleGrid(const Subject& subject, const TruthSamples& truth);
+    SampleGrid(const Subject& subject, const Classifier& classifier, const TruthSamples& truth);
 
     [[nodiscard]] const TruthSamples& truth_samples() const { return truth_; }
     [[nodiscard]] GridSize pixels() const { return truth_.pixels(); }

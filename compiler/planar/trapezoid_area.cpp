@@ -43,15 +43,20 @@ Local local(const Curve& c, Axis axis, std::int64_t origin) {
 
 /// On a stretch where the values are monotone: Newton steps, kept in a bracket.
 Real parameter_at(const Local& c, const Local& slope, const Interval& range, Real v) {
+    constexpr int kSteps = 80;
     Real lo = range.lo, hi = range.hi, t = (lo + hi) / 2;
     const bool rises = c.at(lo) < c.at(hi);
-    for (int k = 0; k < 80; ++k) {
+    std::array<Real, 3> last{}; ///< t, lo and hi when the step before began
+    for (int k = 0; k < kSteps; ++k) {
+        const std::array<Real, 3> now{t, lo, hi};
         const Real off = c.at(t) - v, step = off / slope.at(t);
         ((off < 0) == rises ? lo : hi) = t;
         Real next = t - step;
         if (!(next > lo && next < hi)) next = (lo + hi) / 2;
         if (next == t || std::fabs(next - t) <= std::numeric_limits<Real>::epsilon() * t) return next;
-        t = next;
+        // Two values may take turns for ever: what the last step would end on is known.
+        if (last == std::array{next, lo, hi}) return (kSteps - k) % 2 != 0 ? next : t;
+        last = now, t = next;
     }
     return t;
 }
