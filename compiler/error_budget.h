@@ -153,14 +153,13 @@ inline constexpr double kBoundaryFirstStep = 0x1p-14;
 /// more.
 inline constexpr double kBoundaryChordError = 0.125;
 
-/// Colour channel: neighbouring points of a pixel's line that differ by more are looked at for a jump between them.
+/// Colour channel: neighbouring points of a pixel's line that differ by more are looked at for a jump between them, by
+/// so many halvings (2^-8 of 1/8 of a pixel).
 inline constexpr double kJump = 1.0 / 64;
-
-/// Halvings to find it (2^-8 of 1/8 of a pixel), and the share of the difference that has to stay together all along.
 inline constexpr int kJumpHalvings = 8;
-inline constexpr double kJumpShare = 0.7;
 
-/// Colour channel: a pixel whose centre differs by less from the mean of its corners is taken for linear.
+/// Colour channel: a pixel whose centre differs by less from the mean of its corners is taken for linear; so is the run
+/// of the means of its lines.
 inline constexpr double kLinearPixel = 1.0 / 1024;
 
 } // namespace fetexc::budget

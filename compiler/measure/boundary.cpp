@@ -65,11 +65,12 @@ WidthPoint PictureBoundary::between(std::size_t a, std::size_t b, double t) cons
     return {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
+/// A colour halfway between the two, as of a third region between theirs, is the first one's in spite of roundings.
 bool PictureBoundary::takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const {
     const TexturePoint at = subject_.truth.to_texture(p);
     const Rgba color = subject_.picture.at(at);
     return color_distance(color, subject_.truth.color(first, at)) <=
-           color_distance(color, subject_.truth.color(second, at));
+           color_distance(color, subject_.truth.color(second, at)) + budget::kColourTie;
 }
 
 bool PictureBoundary::on_canvas(WidthPoint p) const {

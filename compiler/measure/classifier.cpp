@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/measure/edge_index.h"
 
 namespace fetexc::measure {
@@ -68,7 +69,9 @@ ResultId Classifier::classify(TexturePoint p, ResultId expected, const Rgba& sam
         if (candidate.result == expected) continue;
         const Rgba color = truth_.color(candidate.result, p);
         const double distance = color_distance(sampled, color);
-        if (!(distance < best) || contrast(color, truth) < min_contrast_ || !within_reach(candidate, p)) continue;
+        if (!(distance < best - budget::kColourTie) || contrast(color, truth) < min_contrast_ ||
+            !within_reach(candidate, p))
+            continue;
         best = distance, result = candidate.result;
     }
     return result;

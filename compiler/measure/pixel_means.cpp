@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/measure/pixel_means.h"
 
-#include <cmath>
+#include <vector>
 
 #include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
@@ -13,23 +13,38 @@ void add(Rgba& sum, const Rgba& c, double weight) {
     sum.r += weight * c.r, sum.g += weight * c.g, sum.b += weight * c.b, sum.a += weight * c.a;
 }
 
-/// Part of the way from a to b over which the line has a's colour; a half where it changes without a jump.
-template <class At> double jump_between(const At& at, double from, const Rgba& a, double to, const Rgba& b) {
-    const double whole = contrast(a, b), length = to - from;
-    if (whole < budget::kJump) return 0.5;
-    const double start = from;
-    Rgba left = a, right = b;
-    for (int step = 0; step < budget::kJumpHalvings; ++step) {
-        const double middle = (from + to) / 2;
-        const Rgba c = at(middle);
-        const double before = contrast(left, c), behind = contrast(c, right);
-        if (std::max(before, behind) < budget::kJumpShare * whole) return 0.5;
-        if (before > behind)
-            to = middle, right = c;
-        else
-            from = middle, left = c;
+Rgba middle(const Rgba& a, const Rgba& b) {
+    return {(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2, (a.a + b.a) / 2};
+}
+
+/// Mean between two places of a line with colours a and b: halved where these differ, down to the jump between them.
+template <class At>
+Rgba mean_between(const At& at, double from, const Rgba& a, double to, const Rgba& b, int halvings) {
+    if (halvings == 0 || contrast(a, b) < budget::kJump) return middle(a, b);
+    const double half = (from + to) / 2;
+    const Rgba c = at(half);
+    return middle(mean_between(at, from, a, half, c, halvings - 1), mean_between(at, half, c, to, b, halvings - 1));
+}
+
+template <class At> Rgba line_mean(const At& at, unsigned intervals) {
+    Rgba sum, last = at(0);
+    for (unsigned k = 1; k <= intervals; ++k) {
+        const double from = (k - 1.0) / intervals, to = static_cast<double>(k) / intervals;
+        const Rgba next = at(to);
+        add(sum, mean_between(at, from, last, to, next, budget::kJumpHalvings), 1.0 / intervals);
+        last = next;
     }
-    return ((from + to) / 2 - start) / length;
+    return sum;
+}
+
+/// Lines whose means don't go on as their neighbours' do: an edge enters or leaves the pixel around there.
+std::vector<char> bends(const std::vector<Rgba>& lines) {
+    std::vector<char> out(lines.size(), 0);
+    for (std::size_t l = 1; l + 1 < lines.size(); ++l) {
+        if (contrast(middle(lines[l - 1], lines[l + 1]), lines[l]) >= budget::kLinearPixel)
+            out[l - 1] = out[l] = out[l + 1] = 1;
+    }
+    return out;
 }
 
 } // namespace
@@ -63,24 +78,28 @@ bool changes_across(const Picture& picture, const PixelArea& area) {
 
 Rgba supersampled(const Picture& picture, const PixelArea& area, unsigned intervals) {
     const bool level = changes_across(picture, area);
-    const unsigned lines = 2 * intervals;
+    const auto mean_at = [&](double side) {
+        return line_mean(
+            [&](double t) {
+                return picture.at(
+                    {area.u + (level ? t : side) * area.width, area.v + (level ? side : t) * area.height});
+            },
+            intervals);
+    };
+    std::vector<Rgba> lines;
+    for (unsigned l = 0; l < intervals; ++l)
+        lines.push_back(mean_at((l + 0.5) / intervals));
+    const std::vector<char> refine = bends(lines);
     Rgba sum;
-    for (unsigned l = 0; l < lines; ++l) {
-        const double side = (l + 0.5) / lines;
-        const auto at = [&](double t) {
-            return picture.at({area.u + (level ? t : side) * area.width, area.v + (level ? side : t) * area.height});
-        };
-        Rgba last = at(0);
-        for (unsigned k = 1; k <= intervals; ++k) {
-            const double from = (k - 1.0) / intervals, to = static_cast<double>(k) / intervals;
-            const Rgba next = at(to);
-            const double share = jump_between(at, from, last, to, next);
-            add(sum, last, share), add(sum, next, 1 - share);
-            last = next;
+    for (unsigned l = 0; l < intervals; ++l) {
+        if (refine[l] == 0) {
+            add(sum, lines[l], 1.0 / intervals);
+            continue;
         }
+        for (const Rgba& third : {mean_at((l + 1.0 / 6) / intervals), lines[l], mean_at((l + 5.0 / 6) / intervals)})
+            add(sum, third, 1.0 / (3 * intervals));
     }
-    const double weight = 1.0 / (static_cast<double>(lines) * intervals);
-    return {sum.r * weight, sum.g * weight, sum.b * weight, sum.a * weight};
+    return sum;
 }
 
 } // namespace fetexc::measure

@@ -13,9 +13,10 @@ struct PixelArea {
     double u = 0, v = 0, width = 0, height = 0; ///< texture space
 };
 
-/// 2·intervals parallel lines through the pixel, in the direction in which it changes most between 3 × 3 points. On
-/// each, the trapezoid rule over the intervals; where the ends of one differ, the jump is looked for by bisection, so
-/// that a hard edge costs no accuracy. What lies between two neighbouring points of a line unseen is missed.
+/// As many parallel lines through the pixel as `intervals`, in the direction in which it changes most between 3 × 3
+/// points, and three times as many where their means bend. On each, the trapezoid rule over the intervals; one whose
+/// ends differ is halved again and again, so that a hard edge costs no accuracy. What lies between two neighbouring
+/// points of a line unseen is missed.
 [[nodiscard]] Rgba supersampled(const Picture& picture, const PixelArea& area, unsigned intervals);
 
 /// The centre alone says what the mean is: the picture is as good as linear in the pixel.

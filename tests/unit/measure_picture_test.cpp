@@ -182,6 +182,19 @@ TEST(Fbt, compiledFromTheSceneItselfIsRight) {
     }
 }
 
+TEST(Fbt, aStripHalfwayBetweenItsNeighboursColoursHasTwoEdges) {
+    // sample points step over it: where the colour changes from one neighbour's to the other's is a tie all over it
+    const auto grey = [](int v) { return Rgba{v / 255.0, v / 255.0, v / 255.0, 1}; };
+    const Scene scene = test::layered({{{test::canvas_box()}, grey(255)},
+                                       {{test::closed_polygon({{0.4, 0}, {1, 0}, {1, 1}, {0.5, 1}})}, grey(204)},
+                                       {{test::closed_polygon({{0.402, 0}, {1, 0}, {1, 1}, {0.502, 1}})}, grey(153)}});
+    const fetex::FbtTexture texture = compiled(scene, 16);
+    const SizeErrors e = errors_at(scene, FbtPicture(texture), 256);
+    EXPECT_GT(e.to_truth.points, 256u);
+    EXPECT_LT(e.to_truth.hausdorff, budget::kRegionTolerance / 16);
+    EXPECT_LT(e.to_picture.hausdorff, budget::kRegionTolerance / 16);
+}
+
 TEST(BitmapPicture, showsItsTexelsAtTheirCentresAndClampsItsBorders) {
     const std::vector<std::uint8_t> rgba{0, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255};
     const BitmapPicture smooth({2, 2}, rgba, BitmapPicture::Filter::Bilinear),
