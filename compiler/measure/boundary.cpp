@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "compiler/error_budget.h"
-#include "compiler/measure/edge_index.h"
 #include "compiler/parallel.h"
 
 namespace fetexc::measure {
@@ -14,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoChange = -1;
-constexpr std::size_t kEdgesPerTask = 64;
+constexpr std::size_t kSamplesPerTask = 64;
 
 /// Place in [0,1] where a predicate that holds at 0 and not at 1 changes.
 template <class Holds> double bisect(const Holds& holds) {
@@ -86,10 +85,7 @@ double PictureBoundary::change_between(std::size_t a, std::size_t b) const {
     return bisect([&](double t) { return takes_for_first(between(a, b, t), first, second); });
 }
 
-Distances PictureBoundary::summary(const std::vector<std::vector<Sample>>& rows) {
-    std::vector<Sample> all;
-    for (const std::vector<Sample>& row : rows)
-        all.insert(all.end(), row.begin(), row.end());
+Distances PictureBoundary::summary(std::vector<Sample> all) {
     Distances out;
     out.points = all.size();
     double sum = 0, weight = 0;
@@ -125,7 +121,10 @@ Distances PictureBoundary::to_truth() const {
             add(k, k + n.width, down_[k]);
         }
     });
-    return summary(rows);
+    std::vector<Sample> all;
+    for (const std::vector<Sample>& row : rows)
+        all.insert(all.end(), row.begin(), row.end());
+    return summary(std::move(all));
 }
 
 /// Changes on the sides of the square of sample points (i,j) … (i+1,j+1).
@@ -177,7 +176,9 @@ double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
 /// Outwards in rings until the colour goes over to the edge's other result: on both sides along the normal, and near
 /// the point in six more directions (around a corner the picture may be met there only). Steps that double from far
 /// below a pixel, and never exceed a quarter of one.
-double PictureBoundary::distance_along_normal(const VisibleEdge& e, WidthPoint p, WidthPoint normal) const {
+double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
+    const VisibleEdge& e = subject_.truth.edges()[s.edge];
+    const WidthPoint p = s.place, normal = s.normal;
     const bool first = takes_for_first(p, e.left, e.right);
     const ResultId own = first ? e.left : e.right, other = first ? e.right : e.left;
     const auto along = [&](std::size_t k, double d) {
@@ -194,7 +195,7 @@ double PictureBoundary::distance_along_normal(const VisibleEdge& e, WidthPoint p
         for (std::size_t k = 0; k < directions; ++k) {
             if (!on_canvas(along(k, to)) || takes_for_first(along(k, to), own, other)) continue;
             const double t =
-                bisect([&](double s) { return takes_for_first(along(k, from + s * (to - from)), own, other); });
+                bisect([&](double part) { return takes_for_first(along(k, from + part * (to - from)), own, other); });
             found = std::min(found, from + t * (to - from));
         }
         if (found < kInfinity) return found;
@@ -203,49 +204,26 @@ double PictureBoundary::distance_along_normal(const VisibleEdge& e, WidthPoint p
     return kInfinity;
 }
 
-bool PictureBoundary::has_contrast(const VisibleEdge& e) const {
-    const TexturePoint middle = subject_.truth.to_texture(point_at(e, 0.5));
-    return contrast(subject_.truth.color(e.left, middle), subject_.truth.color(e.right, middle)) >=
-           subject_.min_contrast;
-}
-
-/// A point for every pixel's length; a change between sample points counts where it is nearer by more than what
-/// joining them by lines may be off.
-void PictureBoundary::measure_edge(const VisibleEdge& e, std::vector<Sample>& out) const {
-    const double length = distance(e.p[0], e.p[static_cast<std::size_t>(e.degree)]), pixel = grid_.pixel_side();
-    const int n = std::max(1, static_cast<int>(std::ceil(length / pixel)));
-    const double slack = budget::kBoundaryChordError * pixel;
-    for (int k = 0; k < n; ++k) {
-        const double t = (k + 0.5) / n;
-        const WidthPoint p = point_at(e, t), d = direction_at(e, t);
-        const double speed = std::hypot(d.x, d.y);
-        if (speed == 0) continue;
-        double nearest = distance_along_normal(e, p, {d.y / speed, -d.x / speed});
-        if (nearest > slack) {
-            const double change = distance_to_changes(p, std::min(nearest, subject_.reach));
-            if (change < std::min(nearest - slack, subject_.reach)) nearest = change;
-        }
-        const bool beyond = nearest > subject_.reach;
-        out.push_back({beyond ? subject_.reach : nearest, length / n, beyond, p});
+/// A change between sample points counts where it is nearer by more than what joining them by lines may be off.
+PictureBoundary::Sample PictureBoundary::measure_at(const EdgeSample& s) const {
+    const double slack = budget::kBoundaryChordError * grid_.pixel_side();
+    double nearest = distance_along_normal(s);
+    if (nearest > slack) {
+        const double change = distance_to_changes(s.place, std::min(nearest, subject_.reach));
+        if (change < std::min(nearest - slack, subject_.reach)) nearest = change;
     }
+    const bool beyond = nearest > subject_.reach;
+    return {beyond ? subject_.reach : nearest, s.length, beyond, s.place};
 }
 
-Distances PictureBoundary::to_picture(std::uint64_t& edges_without_contrast) const {
-    const std::span<const VisibleEdge> edges = subject_.truth.edges();
-    std::vector<std::vector<Sample>> tasks((edges.size() + kEdgesPerTask - 1) / kEdgesPerTask);
-    std::vector<std::uint64_t> skipped(tasks.size(), 0);
-    parallel_for(tasks.size(), subject_.threads, [&](std::size_t task) {
-        for (std::size_t e = task * kEdgesPerTask; e < std::min(edges.size(), (task + 1) * kEdgesPerTask); ++e) {
-            if (has_contrast(edges[e]))
-                measure_edge(edges[e], tasks[task]);
-            else
-                ++skipped[task];
-        }
+Distances PictureBoundary::to_picture() const {
+    const std::span<const EdgeSample> samples = grid_.truth_samples().edge_samples();
+    std::vector<Sample> all(samples.size());
+    parallel_for_chunks(samples.size(), kSamplesPerTask, subject_.threads, [&](std::size_t first, std::size_t end) {
+        for (std::size_t k = first; k < end; ++k)
+            all[k] = measure_at(samples[k]);
     });
-    edges_without_contrast = 0;
-    for (const std::uint64_t s : skipped)
-        edges_without_contrast += s;
-    return summary(tasks);
+    return summary(std::move(all));
 }
 
 } // namespace fetexc::measure

@@ -15,7 +15,7 @@ class PictureBoundary {
     /// From every change to the nearest visible edge.
     [[nodiscard]] Distances to_truth() const;
     /// From points of the visible edges to the nearest change.
-    [[nodiscard]] Distances to_picture(std::uint64_t& edges_without_contrast) const;
+    [[nodiscard]] Distances to_picture() const;
 
   private:
     struct Sample {
@@ -23,7 +23,7 @@ class PictureBoundary {
         bool beyond = false;
         WidthPoint place;
     };
-    static Distances summary(const std::vector<std::vector<Sample>>& rows);
+    static Distances summary(std::vector<Sample> all);
     [[nodiscard]] bool on_canvas(WidthPoint p) const;
     [[nodiscard]] double change_between(std::size_t a, std::size_t b) const;
     [[nodiscard]] bool takes_for_first(const WidthPoint& p, ResultId first, ResultId second) const;
@@ -31,9 +31,8 @@ class PictureBoundary {
     [[nodiscard]] WidthPoint between(std::size_t a, std::size_t b, double t) const;
     [[nodiscard]] double distance_in_square(std::uint32_t i, std::uint32_t j, WidthPoint p) const;
     [[nodiscard]] double distance_to_changes(WidthPoint p, double best) const;
-    [[nodiscard]] double distance_along_normal(const VisibleEdge& e, WidthPoint p, WidthPoint normal) const;
-    [[nodiscard]] bool has_contrast(const VisibleEdge& e) const;
-    void measure_edge(const VisibleEdge& e, std::vector<Sample>& out) const;
+    [[nodiscard]] double distance_along_normal(const EdgeSample& s) const;
+    [[nodiscard]] Sample measure_at(const EdgeSample& s) const;
 
     const Subject& subject_;
     const SampleGrid& grid_;

@@ -43,14 +43,16 @@ Result<SmallestSide> smallest_side(std::uint32_t largest, double precision,
 Result<EqualErrorBitmap> bitmap_of_equal_error(const Truth& truth, double target, const EqualErrorOptions& options) {
     assert(!options.measure.sizes.empty());
     const bool psnr = options.figure == ErrorFigure::Psnr;
-    MeasureOptions at_one_size = options.measure;
-    at_one_size.sizes.resize(1);
+    MeasureOptions only_that = options.measure;
+    only_that.sizes.resize(1);
+    only_that.figures = Figures::none();
+    (psnr ? only_that.figures.psnr : only_that.figures.misclassified) = true;
+    const Result<Measurer> measurer = Measurer::of(truth, only_that);
+    if (!measurer) return measurer.error();
     std::map<std::uint32_t, double> errors;
     const auto good_enough = [&](std::uint32_t side) -> Result<bool> {
         const SparseBitmap bitmap(truth, grid_for(truth.scene().extent, side), options.measure.threads);
-        const auto measured = measure(truth, bitmap, at_one_size);
-        if (!measured) return measured.error();
-        const SizeErrors& figures = measured.value().front();
+        const SizeErrors figures = measurer.value().measure(bitmap).front();
         const double error = psnr ? figures.psnr : figures.misclassified_ppm;
         errors[side] = error;
         return psnr ? error >= target : error <= target;

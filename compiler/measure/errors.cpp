@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "compiler/measure/boundary.h"
-#include "compiler/measure/exact_picture.h"
 #include "compiler/measure/islands.h"
 #include "compiler/measure/pixel_means.h"
+#include "compiler/measure/truth_samples.h"
 #include "compiler/parallel.h"
 
 namespace fetexc::measure {
@@ -24,10 +24,8 @@ double squared_error(const Rgba& a, const Rgba& b) {
     return sum;
 }
 
-Result<double> psnr_of(const Subject& subject, const SampleGrid& grid, unsigned intervals) {
-    const GridSize n = grid.pixels();
-    const Result<std::vector<Rgba>> exact = subject.truth.picture(n, subject.threads);
-    if (!exact) return exact.error();
+double psnr_of(const Subject& subject, const TruthSamples& truth, unsigned intervals) {
+    const GridSize n = truth.pixels();
     std::vector<double> rows(n.height, 0);
     parallel_for(n.height, subject.threads, [&](std::size_t row) {
         const auto j = static_cast<std::uint32_t>(row);
@@ -38,15 +36,15 @@ Result<double> psnr_of(const Subject& subject, const SampleGrid& grid, unsigned 
         PixelCorners corners{corner(0, 0), {}, corner(0, 1), {}};
         for (std::uint32_t i = 0; i < n.width; ++i) {
             corners[1] = corner(i + 1, 0), corners[3] = corner(i + 1, 1);
-            const std::size_t k = grid.index(i, j);
+            const std::size_t k = truth.index(i, j);
             Rgba mean = subject.picture.at({(i + 0.5) * w, (j + 0.5) * h});
-            if (grid.crossed(k) || !is_linear(corners, mean))
+            if (truth.crossed(k) || !is_linear(corners, mean))
                 mean = supersampled(subject.picture, {i * w, j * h, w, h}, intervals);
-            rows[row] += squared_error(mean, exact.value()[k]);
+            rows[row] += squared_error(mean, truth.mean(k));
             corners[0] = corners[1], corners[2] = corners[3];
         }
     });
-    const double mse = std::accumulate(rows.begin(), rows.end(), 0.0) / (6.0 * static_cast<double>(grid.size()));
+    const double mse = std::accumulate(rows.begin(), rows.end(), 0.0) / (6.0 * static_cast<double>(truth.size()));
     return mse > 0 ? -10 * std::log10(mse) : std::numeric_limits<double>::infinity();
 }
 
@@ -64,21 +62,21 @@ void count_misclassified(const SampleGrid& grid, SizeErrors& out) {
 /// Whether points are far from edges, block by block: one question for most of them.
 class FarPoints {
   public:
-    FarPoints(const Truth& truth, const SampleGrid& grid, double distance)
-        : truth_(truth), grid_(grid), distance_(distance) {}
+    FarPoints(const Truth& truth, const TruthSamples& samples, double distance)
+        : truth_(truth), samples_(samples), distance_(distance) {}
 
     template <class Visit> void in_block(std::uint32_t i0, std::uint32_t j0, const Visit& visit) const {
-        const GridSize n = grid_.pixels();
+        const GridSize n = samples_.pixels();
         const std::uint32_t i1 = std::min(i0 + kSide, n.width), j1 = std::min(j0 + kSide, n.height);
         const TexturePoint middle{(i0 + 0.5 * kSide) / n.width, (j0 + 0.5 * kSide) / n.height};
-        const double radius = grid_.pixel_side() * kSide * 0.7072; // to a corner, and a bit more
+        const double radius = samples_.pixel_side() * kSide * 0.7072; // to a corner, and a bit more
         const EdgePoint nearest = truth_.nearest_edge(middle, distance_ + radius);
         if (nearest.edge != kNone && nearest.distance < distance_ - radius) return;
         for (std::uint32_t j = j0; j < j1; ++j) {
             for (std::uint32_t i = i0; i < i1; ++i) {
-                const TexturePoint p = grid_.point(i, j);
+                const TexturePoint p = samples_.point(i, j);
                 if (nearest.edge == kNone || truth_.nearest_edge(p, distance_).edge == kNone)
-                    visit(grid_.index(i, j), p);
+                    visit(samples_.index(i, j), p);
             }
         }
     }
@@ -87,19 +85,19 @@ class FarPoints {
 
   private:
     const Truth& truth_;
-    const SampleGrid& grid_;
+    const TruthSamples& samples_;
     double distance_;
 };
 
-ColorError color_error(const Subject& subject, const SampleGrid& grid) {
-    const GridSize n = grid.pixels();
-    const FarPoints far(subject.truth, grid, texel_side(subject.truth, subject.picture));
+ColorError color_error(const Subject& subject, const TruthSamples& samples) {
+    const GridSize n = samples.pixels();
+    const FarPoints far(subject.truth, samples, texel_side(subject.truth, subject.picture));
     std::vector<ColorError> rows((n.height + FarPoints::kSide - 1) / FarPoints::kSide);
     parallel_for(rows.size(), subject.threads, [&](std::size_t row) {
         ColorError& out = rows[row];
         for (std::uint32_t i = 0; i < n.width; i += FarPoints::kSide) {
             far.in_block(i, static_cast<std::uint32_t>(row) * FarPoints::kSide, [&](std::size_t k, TexturePoint p) {
-                const double error = contrast(subject.picture.at(p), subject.truth.color(grid.truth(k), p));
+                const double error = contrast(subject.picture.at(p), subject.truth.color(samples.result(k), p));
                 out.mean += error, ++out.points;
                 if (error > out.max) out.max = error, out.place = p;
             });
@@ -114,29 +112,91 @@ ColorError color_error(const Subject& subject, const SampleGrid& grid) {
     return total;
 }
 
+/// Of what isn't wanted.
+SizeErrors not_measured(const Figures& wanted) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    SizeErrors out;
+    if (!wanted.misclassified) out.misclassified_ppm = out.misclassified_error_ppm = kNone;
+    if (!wanted.psnr) out.psnr = kNone;
+    if (!wanted.boundary) {
+        for (Distances* d : {&out.to_truth, &out.to_picture})
+            d->mean = d->p95 = d->hausdorff = kNone;
+    }
+    if (!wanted.away) out.away.max = out.away.mean = kNone;
+    if (!wanted.islands) out.islands.largest_ppm = kNone;
+    return out;
+}
+
+/// Of one picture.
+class PictureErrors {
+  public:
+    PictureErrors(const Truth& truth, const Picture& picture, const MeasureOptions& options)
+        : options_(options), reach_(options.reach * texel_side(truth, picture)),
+          classifier_(truth, reach_, options.min_contrast),
+          subject_{truth, picture, classifier_, reach_, options.min_contrast, options.threads} {}
+
+    [[nodiscard]] SizeErrors at(const TruthSamples& truth) const {
+        const Figures& wanted = options_.figures;
+        SizeErrors out = not_measured(wanted);
+        out.pixels = truth.pixels();
+        out.pixels_per_texel = static_cast<double>(out.pixels.width) / subject_.picture.texels().width;
+        if (wanted.psnr) out.psnr = psnr_of(subject_, truth, options_.supersample);
+        if (wanted.classes()) measure_classes(truth, out);
+        if (wanted.away) out.away = color_error(subject_, truth);
+        return out;
+    }
+
+  private:
+    void measure_classes(const TruthSamples& truth, SizeErrors& out) const {
+        const SampleGrid grid(subject_, truth);
+        if (options_.figures.misclassified) count_misclassified(grid, out);
+        if (options_.figures.boundary) {
+            const PictureBoundary boundary(subject_, grid);
+            out.to_truth = boundary.to_truth();
+            out.to_picture = boundary.to_picture();
+            out.edges_without_contrast = truth.edges_without_contrast();
+        }
+        if (options_.figures.islands) out.islands = find_islands(subject_, grid);
+    }
+
+    const MeasureOptions& options_;
+    double reach_;
+    Classifier classifier_;
+    Subject subject_;
+};
+
 } // namespace
 
+Measurer::Measurer(const Truth& truth, MeasureOptions options) : truth_(&truth), options_(std::move(options)) {}
+Measurer::~Measurer() = default;
+Measurer::Measurer(Measurer&&) noexcept = default;
+Measurer& Measurer::operator=(Measurer&&) noexcept = default;
+
+Result<Measurer> Measurer::of(const Truth& truth, MeasureOptions options) {
+    Measurer measurer(truth, std::move(options));
+    for (const GridSize pixels : measurer.options_.sizes) {
+        Result<TruthSamples> samples = TruthSamples::of(truth, pixels, measurer.options_);
+        if (!samples) return samples.error();
+        measurer.samples_.push_back(std::move(samples).value());
+    }
+    return measurer;
+}
+
+std::vector<SizeErrors> Measurer::measure(const Picture& picture) const {
+    const PictureErrors errors(*truth_, picture, options_);
+    std::vector<SizeErrors> all;
+    for (const TruthSamples& samples : samples_)
+        all.push_back(errors.at(samples));
+    return all;
+}
+
 Result<std::vector<SizeErrors>> measure(const Truth& truth, const Picture& picture, const MeasureOptions& options) {
-    const double reach = options.reach * texel_side(truth, picture);
-    const Classifier classifier(truth, reach, options.min_contrast);
-    const Subject subject{truth, picture, classifier, reach, options.min_contrast, options.threads};
+    const PictureErrors errors(truth, picture, options);
     std::vector<SizeErrors> all;
     for (const GridSize pixels : options.sizes) {
-        if (Status fits = check_size(pixels); !fits) return fits.error();
-        const SampleGrid grid(subject, pixels);
-        const Result<double> psnr = psnr_of(subject, grid, options.supersample);
-        if (!psnr) return psnr.error();
-        SizeErrors out;
-        out.pixels = pixels;
-        out.pixels_per_texel = static_cast<double>(pixels.width) / picture.texels().width;
-        out.psnr = psnr.value();
-        count_misclassified(grid, out);
-        const PictureBoundary boundary(subject, grid);
-        out.to_truth = boundary.to_truth();
-        out.to_picture = boundary.to_picture(out.edges_without_contrast);
-        out.away = color_error(subject, grid);
-        out.islands = find_islands(subject, grid);
-        all.push_back(out);
+        const Result<TruthSamples> samples = TruthSamples::of(truth, pixels, options);
+        if (!samples) return samples.error();
+        all.push_back(errors.at(samples.value()));
     }
     return all;
 }

@@ -33,12 +33,24 @@
 
 namespace fetexc::measure {
 
+/// Which figures are wanted; the others cost nothing.
+struct Figures {
+    bool misclassified = true, boundary = true, psnr = true, away = true, islands = true;
+
+    static constexpr Figures none() { return {false, false, false, false, false}; }
+    /// What takes a class at every sample point.
+    [[nodiscard]] bool classes() const { return misclassified || boundary || islands; }
+    /// What takes the truth there.
+    [[nodiscard]] bool results() const { return classes() || away; }
+};
+
 struct MeasureOptions {
     std::vector<GridSize> sizes;     ///< output sizes in pixels, 1 … 16384 on each side
     double reach = 1.5;              ///< texels
     double min_contrast = 4.0 / 255; ///< largest difference of a channel across an edge
     unsigned supersample = 8; ///< intervals of a line through a pixel that an edge crosses (measure/pixel_means.h)
     unsigned threads = 0;     ///< never changes the figures
+    Figures figures;
 };
 
 /// In width units.
@@ -61,7 +73,7 @@ struct ColorError {
     TexturePoint place; ///< of max
 };
 
-/// At one output size.
+/// At one output size. Of figures that weren't wanted: NaN in each `double` but places, 0 in each count.
 struct SizeErrors {
     GridSize pixels;
     double pixels_per_texel = 0;
@@ -75,7 +87,29 @@ struct SizeErrors {
     std::uint64_t edges_without_contrast = 0;
 };
 
-/// One entry for each size. Errors: as Truth::picture's.
+class TruthSamples;
+
+/// Several pictures against one truth: what figures need of the truth alone is found once. Const members are
+/// thread-safe.
+class Measurer {
+  public:
+    /// The truth must outlive it. Errors: as Truth::picture's.
+    static Result<Measurer> of(const Truth& truth, MeasureOptions options);
+    ~Measurer();
+    Measurer(Measurer&&) noexcept;
+    Measurer& operator=(Measurer&&) noexcept;
+
+    /// One entry for each size.
+    [[nodiscard]] std::vector<SizeErrors> measure(const Picture& picture) const;
+
+  private:
+    Measurer(const Truth& truth, MeasureOptions options);
+    const Truth* truth_;
+    MeasureOptions options_;
+    std::vector<TruthSamples> samples_; ///< of each size
+};
+
+/// Of one picture, one size after the other: less memory than a Measurer of all sizes.
 Result<std::vector<SizeErrors>> measure(const Truth& truth, const Picture& picture, const MeasureOptions& options);
 
 } // namespace fetexc::measure

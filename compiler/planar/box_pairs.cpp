@@ -108,7 +108,7 @@ BoxPairs::BoxPairs(std::vector<BoxItem> items) : items_(std::move(items)) {
 
 /// Long boxes reach many strips; there are so many strips that boxes reach one more on average, at most.
 void BoxPairs::cut_into_strips(std::size_t first) {
-    constexpr std::size_t max_strips = 64, boxes_a_strip = 512;
+    constexpr std::size_t max_strips = 128, boxes_a_strip = 192;
     const std::span<const BoxItem> rest = std::span(items_).subspan(first);
     std::vector<double> borders;
     for (std::size_t strips = std::clamp<std::size_t>(rest.size() / boxes_a_strip, 1, max_strips);; strips /= 2) {
