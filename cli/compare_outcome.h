@@ -13,11 +13,11 @@ namespace fetexc::cli {
 
 /// Thresholds of `compare`; those not given are empty.
 struct Thresholds {
-    std::optional<double> misclassified; ///< ppm
-    std::optional<double> distance;      ///< texels, Hausdorff, either way
-    std::optional<double> psnr;          ///< dB
-    std::optional<double> color;         ///< 1/255
-    std::optional<double> islands;       ///< lost and false ones together
+    std::optional<double> misclassified = {}; ///< ppm
+    std::optional<double> distance = {};      ///< texels, Hausdorff, either way
+    std::optional<double> psnr = {};          ///< dB
+    std::optional<double> color = {};         ///< 1/255
+    std::optional<double> islands = {};       ///< lost and false ones together
 };
 
 struct ThresholdCheck {

@@ -28,6 +28,7 @@ Examples:
   fetexc info sign.fetex --json
   fetexc validate build/*.fetex
   fetexc compare sign.svg sign.fetex --size 512,2048 --diff wrong.png
+  fetexc bench art/*.svg --csv bench.csv --html bench.html
   cat sign.svg | fetexc compile - -o - | fetexc render - -o - > sign.png
 
 "-" is stdin as an input and stdout as an output. Messages go to stderr.
@@ -54,7 +55,7 @@ int run(int argc, char** argv) {
                          "Print the version, what it was built from, and the back ends found");
     app.require_subcommand(1);
     const std::vector<Command> commands = {add_compile_command(app),  add_render_command(app),  add_info_command(app),
-                                           add_validate_command(app), add_compare_command(app)};
+                                           add_validate_command(app), add_compare_command(app), add_bench_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

@@ -51,5 +51,6 @@ Command add_render_command(CLI::App& parent);
 Command add_info_command(CLI::App& parent);
 Command add_validate_command(CLI::App& parent);
 Command add_compare_command(CLI::App& parent);
+Command add_bench_command(CLI::App& parent);
 
 } // namespace fetexc::cli
