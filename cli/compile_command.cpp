@@ -59,12 +59,6 @@ fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOpti
     return {{"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
 }
 
-void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& input, bool quiet) {
-    for (const Diagnostic& diagnostic : diagnostics) {
-        if (!quiet || diagnostic.severity == Severity::Error) print_message(describe(diagnostic, input));
-    }
-}
-
 struct Compiled {
     LoadedScene loaded;
     FbtBuild build;
@@ -181,23 +175,6 @@ int run_compile(const CompileCommandOptions& options) {
         if (const Status status = write_depfile(options, outcomes); !status) return report_error(status.error());
     }
     return exit;
-}
-
-void add_scene_options(CLI::App& app, SceneOptions& scene) {
-    app.add_option("--font", scene.fonts, "Font file for text; may be given several times")
-        ->type_name("FILE")
-        ->take_all();
-    app.add_flag("--system-fonts", scene.system_fonts,
-                 "Also use the fonts installed here (the bytes then depend on this machine)");
-    app.add_option(
-           "--resources", scene.resources,
-           "Folder from which bitmaps named by a drawing may be read; default: none is (--depfile doesn't list them)")
-        ->type_name("DIR");
-    app.add_option(
-           "--raster-size", scene.raster_size,
-           "Pixels on the longer side for what can't be vector (filters, patterns, bitmaps); default: two a texel")
-        ->check(CLI::Range(16u, kMaxSide))
-        ->type_name("N");
 }
 
 } // namespace

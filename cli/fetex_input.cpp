@@ -14,14 +14,18 @@ std::string describe(const fetex::Finding& finding) {
     return fmt::format("{} at byte {}: {}", fetex::finding_id(finding.code), finding.offset, finding.message);
 }
 
+Result<FetexInput> fetex_of_bytes(std::span<const std::uint8_t> bytes, const std::string& path) {
+    FetexInput input;
+    input.bytes = bytes.size();
+    if (const auto finding = fetex::read_file(input.file, bytes))
+        return Error{ErrorClass::InvalidInput, diag::kInvalidFetex, describe(*finding), path};
+    return input;
+}
+
 Result<FetexInput> load_fetex(const std::string& path) {
     const auto bytes = read_fetex_bytes(path);
     if (!bytes) return bytes.error();
-    FetexInput input;
-    input.bytes = bytes.value().size();
-    if (const auto finding = fetex::read_file(input.file, bytes.value()))
-        return Error{ErrorClass::InvalidInput, diag::kInvalidFetex, describe(*finding), path};
-    return input;
+    return fetex_of_bytes(bytes.value(), path);
 }
 
 } // namespace fetexc::cli

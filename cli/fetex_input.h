@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct FetexInput {
     std::uint64_t bytes = 0;
 };
 Result<FetexInput> load_fetex(const std::string& path);
+/// The same for bytes already read; path: for messages.
+Result<FetexInput> fetex_of_bytes(std::span<const std::uint8_t> bytes, const std::string& path);
 
 /// "F0101 at byte 12: reason"
 std::string describe(const fetex::Finding& finding);

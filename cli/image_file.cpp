@@ -10,6 +10,7 @@
 
 #include <dlfcn.h>
 
+#include "cli/options.h"
 #include "cli/png_module.h"
 #include "compiler/diagnostics.h"
 
@@ -34,6 +35,25 @@ void* open_module() {
     return nullptr;
 }
 
+/// Stays loaded: OpenImageIO's own threads may outlive a call.
+Result<void*> symbol(const char* name) {
+    static void* const module = open_module();
+    if (module == nullptr)
+        return Error{ErrorClass::Runtime, diag::kInternal, std::string("no ") + kPngModule + " beside the program", {}};
+    void* const address = dlsym(module, name);
+    if (address == nullptr)
+        return Error{ErrorClass::Runtime, diag::kInternal, std::string(kPngModule) + " lacks " + name, {}};
+    return address;
+}
+
+/// Straight alpha to premultiplied, rounded once.
+void premultiply(std::vector<std::uint8_t>& rgba) {
+    for (std::size_t k = 0; k < rgba.size(); k += 4) {
+        for (std::size_t c = 0; c < 3; ++c)
+            rgba[k + c] = static_cast<std::uint8_t>((rgba[k + c] * rgba[k + 3] + 127) / 255);
+    }
+}
+
 } // namespace
 
 std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
@@ -48,19 +68,33 @@ std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image) {
-    // Stays loaded: OpenImageIO's own threads may outlive a call.
-    static void* const module = open_module();
-    if (module == nullptr) return encode_error(std::string("no ") + kPngModule + " beside the program");
-    const auto encode = reinterpret_cast<EncodePng>(dlsym(module, kEncodePng));
-    if (encode == nullptr) return encode_error("the module has no encoder");
+    const auto encode = symbol(kEncodePng);
+    if (!encode) return encode_error(encode.error().message);
     const std::vector<std::uint8_t> pixels = to_straight_rgba8(image);
     std::vector<std::uint8_t> bytes;
     const auto take = [](void* context, const std::uint8_t* data, std::size_t size) {
         static_cast<std::vector<std::uint8_t>*>(context)->assign(data, data + size);
     };
-    if (encode(pixels.data(), image.width, image.height, take, &bytes) != 0)
+    if (reinterpret_cast<EncodePng>(encode.value())(pixels.data(), image.width, image.height, take, &bytes) != 0)
         return encode_error(std::string(bytes.begin(), bytes.end()));
     return bytes;
+}
+
+Result<DecodedPicture> decode_png(std::span<const std::uint8_t> bytes) {
+    const auto decode = symbol(kDecodePng);
+    if (!decode) return decode.error();
+    DecodedPicture picture;
+    const auto take = [](void* context, const std::uint8_t* data, std::uint32_t width, std::uint32_t height) {
+        const std::size_t size = height == 0 ? width : std::size_t{4} * width * height;
+        *static_cast<DecodedPicture*>(context) = {width, height, {data, data + size}};
+    };
+    if (reinterpret_cast<DecodePng>(decode.value())(bytes.data(), bytes.size(), kMaxSide, take, &picture) != 0)
+        return Error{ErrorClass::InvalidInput,
+                     diag::kBadPicture,
+                     "can't decode the PNG: " + std::string(picture.rgba.begin(), picture.rgba.end()),
+                     {}};
+    premultiply(picture.rgba);
+    return picture;
 }
 
 fetex::Image side_by_side(const fetex::Image& left, const fetex::Image& right, std::uint32_t gap) {

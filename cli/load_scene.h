@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "compiler/result.h"
 #include "compiler/scene/scene.h"
 
@@ -31,5 +33,11 @@ std::uint32_t raster_size_for(std::uint32_t texels);
 /// Diagnostics are appended on success and on error.
 Result<LoadedScene> load_scene(const std::string& path, const SceneOptions& options, std::uint32_t texels,
                                unsigned threads, std::vector<Diagnostic>& diagnostics);
+/// The same for bytes already read.
+Result<LoadedScene> scene_of_bytes(const std::vector<std::uint8_t>& bytes, const SceneOptions& options,
+                                   std::uint32_t texels, unsigned threads, std::vector<Diagnostic>& diagnostics);
+
+/// --font, --system-fonts, --resources, --raster-size.
+void add_scene_options(CLI::App& app, SceneOptions& scene);
 
 } // namespace fetexc::cli

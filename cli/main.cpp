@@ -27,10 +27,13 @@ Examples:
   fetexc render sign.fetex -o zoom.png --view 0.2,0.3,0.05,0.05 --size 1024 --backend osmesa
   fetexc info sign.fetex --json
   fetexc validate build/*.fetex
+  fetexc compare sign.svg sign.fetex --size 512,2048 --diff wrong.png
+  fetexc bench art/*.svg --csv bench.csv --html bench.html
   cat sign.svg | fetexc compile - -o - | fetexc render - -o - > sign.png
 
 "-" is stdin as an input and stdout as an output. Messages go to stderr.
-Exit codes: 0 fine, 1 usage, 2 reading or writing, 3 invalid input, 4 failure at run time, 5 not supported.
+Exit codes: 0 fine, 1 usage, 2 reading or writing, 3 invalid input, 4 failure at run time, 5 not supported,
+7 compared and found beyond a threshold.
 'fetexc COMMAND --help' explains a command; README.md lists the numbered diagnostics.)";
 
 int usage_error(const CLI::App& app, const std::string& why) {
@@ -51,8 +54,8 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", version_text,
                          "Print the version, what it was built from, and the back ends found");
     app.require_subcommand(1);
-    const std::vector<Command> commands = {add_compile_command(app), add_render_command(app), add_info_command(app),
-                                           add_validate_command(app)};
+    const std::vector<Command> commands = {add_compile_command(app),  add_render_command(app),  add_info_command(app),
+                                           add_validate_command(app), add_compare_command(app), add_bench_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {

@@ -60,6 +60,12 @@ std::string printable(std::string_view text) {
 
 void print_message(const std::string& text) { fmt::print(stderr, "fetexc: {}\n", printable(text)); }
 
+void print_diagnostics(const std::vector<Diagnostic>& diagnostics, std::string_view input, bool quiet) {
+    for (const Diagnostic& diagnostic : diagnostics) {
+        if (!quiet || diagnostic.severity == Severity::Error) print_message(describe(diagnostic, input));
+    }
+}
+
 int report_error(const Error& error, std::string_view input) {
     print_message(describe(error, input));
     return exit_code(error.cls);

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compiler/result.h"
 
@@ -24,6 +25,8 @@ std::string code_name(Severity severity, int code);
 
 /// "fetexc: " + text on stderr, control characters made visible (names in an input are not trusted).
 void print_message(const std::string& text);
+/// One line for each; quiet: errors only.
+void print_diagnostics(const std::vector<Diagnostic>& diagnostics, std::string_view input, bool quiet);
 /// Prints the error and returns its exit code.
 int report_error(const Error& error, std::string_view input = {});
 

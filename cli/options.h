@@ -50,5 +50,7 @@ Command add_compile_command(CLI::App& parent);
 Command add_render_command(CLI::App& parent);
 Command add_info_command(CLI::App& parent);
 Command add_validate_command(CLI::App& parent);
+Command add_compare_command(CLI::App& parent);
+Command add_bench_command(CLI::App& parent);
 
 } // namespace fetexc::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The one function of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer
+/// The two functions of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer
 /// than compiling a small drawing: only what draws a picture loads them.
 #pragma once
 
@@ -15,7 +15,16 @@ using PngSink = void (*)(void* context, const std::uint8_t* bytes, std::size_t s
 using EncodePng = int (*)(const std::uint8_t* rgba, std::uint32_t width, std::uint32_t height, PngSink sink,
                           void* context);
 
+/// Takes straight-alpha sRGB RGBA8, rows from the top; on failure the reason as width bytes of UTF-8, height 0.
+using PictureSink = void (*)(void* context, const std::uint8_t* bytes, std::uint32_t width, std::uint32_t height);
+
+/// Any PNG: grey, palette, sixteen bits. Sides of more than max_side are refused before anything is decoded. Calls the
+/// sink once; 0: it got the picture.
+using DecodePng = int (*)(const std::uint8_t* bytes, std::size_t size, std::uint32_t max_side, PictureSink sink,
+                          void* context);
+
 inline constexpr const char* kPngModule = "libfetexc_png.so";
 inline constexpr const char* kEncodePng = "fetexc_encode_png";
+inline constexpr const char* kDecodePng = "fetexc_decode_png";
 
 } // namespace fetexc::cli

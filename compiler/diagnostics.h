@@ -74,7 +74,9 @@ inline constexpr int kWouldOverwriteInput = 8014; ///< the output is one of the 
 inline constexpr int kSameOutputTwice = 8015;     ///< two inputs would be written to one file
 inline constexpr int kDepfileName = 8021;         ///< a file name that a dependency file can't hold
 inline constexpr int kCannotEncodePicture = 8031; ///< the picture can't be encoded
+inline constexpr int kBadPicture = 8032;          ///< a PNG that can't be decoded, or has more than 16384 pixels on a side
 inline constexpr int kBadUsage = 8041;            ///< unknown option, bad value or combination
+inline constexpr int kBeyondThreshold = 8045;     ///< `compare`: the difference is beyond a threshold (exit code 7)
 inline constexpr int kOutOfMemory = 8051;         ///< the machine has no more memory
 inline constexpr int kInternal = 8052;            ///< an error of the program itself
 

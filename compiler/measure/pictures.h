@@ -2,6 +2,7 @@
 /// Pictures to judge: an FBT through the reference sampler, and a bitmap.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "compiler/measure/picture.h"
@@ -30,6 +31,8 @@ class BitmapPicture final : public Picture {
     [[nodiscard]] Rgba at(TexturePoint p) const override;
     [[nodiscard]] GridSize texels() const override { return size_; }
     [[nodiscard]] std::uint64_t gpu_bytes() const override { return rgba_.size(); }
+
+    [[nodiscard]] std::span<const std::uint8_t> rgba() const { return rgba_; }
 
   private:
     [[nodiscard]] Rgba texel(std::int64_t i, std::int64_t j) const;

@@ -10,6 +10,7 @@ TYPES = {
     "boolean": bool,
     "integer": int,
     "number": (int, float),
+    "null": type(None),
 }
 IGNORED = {"$schema", "$id", "title", "description", "$defs"}
 
@@ -41,7 +42,8 @@ def check_ref(value, rule, _schema, root, where):
 
 
 def check_type(value, rule, _schema, _root, where):
-    if not is_type(value, rule):
+    names = rule if isinstance(rule, list) else [rule]
+    if not any(is_type(value, name) for name in names):
         yield f"{where}: not of type {rule}: {value!r}"
 
 

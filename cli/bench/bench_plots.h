@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// From figures to plots: which lines there are, means over drawings, what stands on the axes.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/bench/bench_point.h"
+#include "cli/bench/plot.h"
+
+namespace fetexc::cli {
+
+/// What is plotted upwards, at the last output size, and to the right.
+enum class ErrorAxis : std::uint8_t { WrongArea, ColorError };
+enum class CostAxis : std::uint8_t { Bytes, CompileTime, SamplerCost };
+
+/// Methods in the order of their styles.
+const std::array<std::string, kPlotStyles>& bench_methods();
+
+/// Drawings that the same methods apply to.
+using FileGroup = std::vector<const BenchFile*>;
+
+/// Methods that apply to every drawing of the group.
+std::vector<std::string> methods_of(const FileGroup& group);
+
+/// One line for each of methods_of, one point for each size: geometric means over the drawings. Where no sample point
+/// was wrong, half a point counts, and the mean says "at most". Without lines when no drawing has such figures (nothing
+/// was timed).
+Plot mean_plot(const FileGroup& group, ErrorAxis error, CostAxis cost);
+
+/// Small plots, one for each drawing, error against bytes; all with the same axes.
+std::vector<Plot> small_plots(const FileGroup& group, ErrorAxis error);
+
+} // namespace fetexc::cli

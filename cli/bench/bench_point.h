@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What `bench` finds out about one texture. What depends on the clock is kept apart from what doesn't.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/measure/equal_error.h"
+#include "compiler/measure/errors.h"
+#include "runtime_glsl/host/sampler_cost.h"
+
+namespace fetexc::cli {
+
+/// Names of methods in tables and plots; the alternatives' are measure::alternative_name's.
+inline constexpr const char* kFbtMethod = "feature-based texture";
+
+/// By the clock, in one run on one machine.
+struct BenchTimes {
+    double compile_seconds = 0; ///< processor time, one thread
+    double compile_ratio = 0;   ///< median of the ratios to the yardstick (compile_time.h)
+    std::optional<fetex::SamplerCost> sampler;
+    std::string why_no_sampler; ///< if there is none
+};
+
+struct BenchPoint {
+    std::string file;
+    std::string method;
+    std::string options;    ///< "size=64"
+    std::uint32_t size = 0; ///< of the sweep: texels on the FBT's longer side; alternatives have its bytes
+    GridSize texels;
+    std::uint64_t bytes = 0;                 ///< on a GPU
+    std::string note;                        ///< why there are no figures, e.g. "not applicable: 5 colours"
+    double texel_side = 0;                   ///< width units
+    std::vector<measure::SizeErrors> errors; ///< one entry for each output size
+    std::optional<measure::EqualErrorBitmap> equal_bitmap; ///< for FBTs: at the last output size
+    std::optional<BenchTimes> times;
+};
+
+/// A drawing and everything made of it.
+struct BenchFile {
+    std::string path;
+    bool two_colors = false; ///< textures of one channel apply
+    std::vector<BenchPoint> points;
+};
+
+} // namespace fetexc::cli

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/bench/sweep.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/bench/compile_time.h"
+#include "cli/io.h"
+#include "compiler/measure/classifier.h"
+#include "compiler/measure/sparse_bitmap.h"
+#include "compiler/svg/svg.h"
+
+namespace fetexc::cli {
+namespace {
+
+using measure::Alternative;
+
+constexpr std::uint32_t kLargestBitmap = 16384; ///< texels on the longer side: what GPUs take
+constexpr double kSidePrecision = 0.05;         ///< of the bitmap of equal error
+
+/// Bitmaps of one drawing, each measured once however many textures ask for their equal.
+class BitmapLadder {
+  public:
+    /// At the last of the sizes.
+    static Result<BitmapLadder> of(const measure::Truth& truth, measure::MeasureOptions options) {
+        options.sizes = {options.sizes.back()};
+        options.figures = measure::Figures::none();
+        options.figures.misclassified = true;
+        auto measurer = measure::Measurer::of(truth, options);
+        if (!measurer) return measurer.error();
+        return BitmapLadder(truth, std::move(measurer).value(), options.threads);
+    }
+
+    Result<measure::EqualErrorBitmap> equal_to(double ppm) {
+        const auto good_enough = [&](std::uint32_t side) -> Result<bool> { return error_of(side) <= ppm; };
+        const auto smallest = measure::smallest_side(kLargestBitmap, kSidePrecision, good_enough);
+        if (!smallest) return smallest.error();
+        const std::uint32_t side = smallest.value().side;
+        const GridSize size = grid_for(truth_->scene().extent, side);
+        return measure::EqualErrorBitmap{smallest.value().found, size, std::uint64_t{size.width} * size.height * 4,
+                                         error_of(side), smallest.value().tried};
+    }
+
+  private:
+    BitmapLadder(const measure::Truth& truth, measure::Measurer measurer, unsigned threads)
+        : truth_(&truth), measurer_(std::move(measurer)), threads_(threads) {}
+
+    double error_of(std::uint32_t side) {
+        if (const auto known = errors_.find(side); known != errors_.end()) return known->second;
+        const measure::SparseBitmap bitmap(*truth_, grid_for(truth_->scene().extent, side), threads_);
+        return errors_[side] = measurer_.measure(bitmap).front().misclassified_ppm;
+    }
+
+    const measure::Truth* truth_;
+    measure::Measurer measurer_;
+    unsigned threads_;
+    std::map<std::uint32_t, double> errors_; ///< ppm, by the longer side
+};
+
+/// The sweep of one drawing.
+class Sweep {
+  public:
+    Sweep(std::string path, const SweepOptions& options, SamplerTimer* timer, const ProgressSink& progress)
+        : path_(std::move(path)), options_(options), timer_(timer), progress_(progress) {}
+
+    Result<BenchFile> run(std::vector<Diagnostic>& diagnostics);
+
+  private:
+    Status load(std::vector<Diagnostic>& diagnostics);
+    Status add_size(std::uint32_t size);
+    Result<BenchPoint> fbt_point(const fetex::FbtTexture& texture, std::uint32_t size);
+    [[nodiscard]] BenchPoint alternative_point(Alternative kind, const measure::Picture* picture, GridSize texels,
+                                               std::uint32_t size) const;
+    void measure_into(const measure::Picture& picture, BenchPoint& point) const;
+    Status time_into(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
+                     const fetex::FbtTexture& texture);
+    void time_samplers(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
+                       const fetex::FbtTexture& texture);
+    [[nodiscard]] Result<Scene> load_again() const;
+    [[nodiscard]] SceneOptions scene_options() const;
+    [[nodiscard]] std::uint32_t largest_size() const {
+        return *std::max_element(options_.sizes.begin(), options_.sizes.end());
+    }
+    void say(std::uint32_t size, const char* what);
+
+    std::string path_;
+    const SweepOptions& options_;
+    SamplerTimer* timer_;
+    const ProgressSink& progress_;
+    std::vector<std::uint8_t> bytes_;
+    Scene scene_;
+    std::unique_ptr<measure::Truth> truth_;
+    std::optional<measure::Measurer> measurer_;
+    std::optional<BitmapLadder> ladder_;
+    BenchFile out_;
+    double steps_done_ = 0;
+};
+
+/// The drawing is the same at every size, and so is what can't be vector in it.
+SceneOptions Sweep::scene_options() const {
+    SceneOptions scene = options_.scene;
+    if (scene.raster_size == 0) scene.raster_size = raster_size_for(largest_size());
+    return scene;
+}
+
+Status Sweep::load(std::vector<Diagnostic>& diagnostics) {
+    auto bytes = read_input(path_, SvgLimits{}.bytes);
+    if (!bytes) return bytes.error();
+    bytes_ = std::move(bytes).value();
+    auto loaded = scene_of_bytes(bytes_, scene_options(), largest_size(), options_.threads, diagnostics);
+    if (!loaded) return loaded.error();
+    scene_ = std::move(loaded).value().scene;
+    auto truth = measure::Truth::of(scene_, options_.threads);
+    if (!truth) return truth.error();
+    truth_ = std::move(truth).value();
+    measure::MeasureOptions how;
+    how.threads = options_.threads;
+    for (const std::uint32_t output : options_.outputs)
+        how.sizes.push_back(grid_for(scene_.extent, output));
+    auto measurer = measure::Measurer::of(*truth_, how);
+    if (!measurer) return measurer.error();
+    measurer_.emplace(std::move(measurer).value());
+    if (options_.equal_bitmap) {
+        auto ladder = BitmapLadder::of(*truth_, how);
+        if (!ladder) return ladder.error();
+        ladder_.emplace(std::move(ladder).value());
+    }
+    out_.path = path_;
+    out_.two_colors = measure::why_not(*truth_, Alternative::DistanceField).empty();
+    return {};
+}
+
+Result<Scene> Sweep::load_again() const {
+    std::vector<Diagnostic> heard_already;
+    auto loaded = scene_of_bytes(bytes_, scene_options(), largest_size(), 1, heard_already);
+    if (!loaded) return loaded.error();
+    return std::move(loaded).value().scene;
+}
+
+void Sweep::say(std::uint32_t size, const char* what) {
+    constexpr double kStepsOfASize = 4;
+    if (progress_)
+        progress_(fmt::format("{} texels, {}", size, what).c_str(),
+                  steps_done_ / (kStepsOfASize * static_cast<double>(options_.sizes.size())));
+    ++steps_done_;
+}
+
+void Sweep::measure_into(const measure::Picture& picture, BenchPoint& point) const {
+    point.bytes = picture.gpu_bytes();
+    point.texels = picture.texels();
+    point.texel_side = measure::texel_side(*truth_, picture);
+    point.errors = measurer_->measure(picture);
+}
+
+Result<BenchPoint> Sweep::fbt_point(const fetex::FbtTexture& texture, std::uint32_t size) {
+    BenchPoint point;
+    point.file = path_, point.method = kFbtMethod, point.size = size;
+    point.options = fmt::format("size={}", size);
+    measure_into(measure::FbtPicture(texture), point);
+    if (!ladder_) return point;
+    say(size, "bitmap of equal error");
+    auto equal = ladder_->equal_to(point.errors.back().misclassified_ppm);
+    if (!equal) return equal.error();
+    point.equal_bitmap = std::move(equal).value();
+    return point;
+}
+
+BenchPoint Sweep::alternative_point(Alternative kind, const measure::Picture* picture, GridSize texels,
+                                    std::uint32_t size) const {
+    BenchPoint point;
+    point.file = path_, point.method = measure::alternative_name(kind), point.size = size;
+    if (kind == Alternative::DistanceField) point.options = fmt::format("range={:g}", measure::kDistanceRange);
+    point.texels = texels;
+    point.note = measure::why_not(*truth_, kind);
+    if (picture != nullptr) measure_into(*picture, point);
+    return point;
+}
+
+/// The FBT, then every alternative, applicable or not.
+Status Sweep::add_size(std::uint32_t size) {
+    say(size, "compiling and measuring");
+    const GridSize grid = grid_for(scene_.extent, size);
+    const auto build = compile_fbt(scene_, {grid, options_.threads, {}});
+    if (!build) return build.error();
+    const fetex::FbtTexture& texture = build.value().texture;
+    auto fbt = fbt_point(texture, size);
+    if (!fbt) return fbt.error();
+    std::vector<BenchPoint> points = {std::move(fbt).value()};
+    std::vector<std::unique_ptr<measure::Picture>> pictures(1); // as points: nothing for the FBT
+    say(size, "alternatives");
+    for (const Alternative kind : measure::kAlternatives) {
+        const GridSize texels =
+            measure::grid_of_bytes(truth_->height(), points.front().bytes, measure::bytes_per_texel(kind));
+        std::unique_ptr<measure::Picture> picture;
+        if (measure::why_not(*truth_, kind).empty()) {
+            auto made = measure::make_alternative(*truth_, kind, texels, options_.threads);
+            if (!made) return made.error();
+            picture = std::move(made).value();
+        }
+        points.push_back(alternative_point(kind, picture.get(), texels, size));
+        pictures.push_back(std::move(picture));
+    }
+    if (options_.timing) {
+        say(size, "timing");
+        if (const Status status = time_into(points, pictures, texture); !status) return status;
+    }
+    std::move(points.begin(), points.end(), std::back_inserter(out_.points));
+    return {};
+}
+
+/// Front end included, one thread: an alternative needs the drawing too.
+Status Sweep::time_into(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
+                        const fetex::FbtTexture& texture) {
+    const GridSize grid{texture.width, texture.height};
+    std::vector<Work> works = {[&]() -> Status {
+        const auto scene = load_again();
+        if (!scene) return scene.error();
+        const auto build = compile_fbt(scene.value(), {grid, 1, {}});
+        return build ? Status() : Status(build.error());
+    }};
+    std::vector<std::size_t> timed = {0};
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        if (!pictures[k]) continue;
+        timed.push_back(k);
+        works.emplace_back([&, k]() -> Status {
+            const auto scene = load_again();
+            if (!scene) return scene.error();
+            const auto truth = measure::Truth::of(scene.value(), 1);
+            if (!truth) return truth.error();
+            const auto made =
+                measure::make_alternative(*truth.value(), measure::kAlternatives[k - 1], points[k].texels, 1);
+            return made ? Status() : Status(made.error());
+        });
+    }
+    const auto times = time_works(works, options_.compile_rounds);
+    if (!times) return times.error();
+    for (std::size_t n = 0; n < timed.size(); ++n)
+        points[timed[n]].times = BenchTimes{times.value()[n].seconds, times.value()[n].ratio, {}, {}};
+    time_samplers(points, pictures, texture);
+    return {};
+}
+
+/// All against the bitmap of equal bytes.
+void Sweep::time_samplers(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
+                          const fetex::FbtTexture& texture) {
+    if (timer_ == nullptr) return;
+    const auto set = [&](BenchPoint& point, const std::optional<fetex::SamplerCost>& cost) {
+        point.times->sampler = cost;
+        if (!cost) point.times->why_no_sampler = timer_->why();
+    };
+    const auto& bitmap = dynamic_cast<const measure::BitmapPicture&>(*pictures[1]);
+    timer_->compare_with(bitmap);
+    set(points[0], timer_->cost(texture));
+    set(points[1], timer_->cost_of_bitmap());
+    for (std::size_t k = 2; k < points.size(); ++k) {
+        if (const auto* field = dynamic_cast<const measure::FieldPicture*>(pictures[k].get()))
+            set(points[k], timer_->cost(*field));
+    }
+}
+
+Result<BenchFile> Sweep::run(std::vector<Diagnostic>& diagnostics) {
+    if (const Status status = load(diagnostics); !status) return status.error();
+    for (const std::uint32_t size : options_.sizes) {
+        if (const Status status = add_size(size); !status) return status.error();
+    }
+    return std::move(out_);
+}
+
+} // namespace
+
+Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& options, SamplerTimer* timer,
+                             const ProgressSink& progress, std::vector<Diagnostic>& diagnostics) {
+    assert(!options.sizes.empty() && !options.outputs.empty());
+    return Sweep(path, options, timer, progress).run(diagnostics);
+}
+
+} // namespace fetexc::cli

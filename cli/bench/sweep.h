@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One drawing at every size: the texture, and what a user would pick instead, in as many bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/bench/bench_point.h"
+#include "cli/bench/sampler_timer.h"
+#include "cli/load_scene.h"
+
+namespace fetexc::cli {
+
+struct SweepOptions {
+    std::vector<std::uint32_t> sizes;   ///< texels on the longer side of the FBT
+    std::vector<std::uint32_t> outputs; ///< pixels on the longer side, where errors are measured
+    SceneOptions scene;                 ///< raster_size 0: two pixels a texel of the largest size, at every size
+    unsigned threads = 0;
+    unsigned compile_rounds = 3;
+    bool timing = true;
+    bool equal_bitmap = true;
+};
+
+/// Diagnostics of the front end are appended. timer: null when nothing is timed. Errors of load_scene, compile_fbt and
+/// measure.
+Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& options, SamplerTimer* timer,
+                             const ProgressSink& progress, std::vector<Diagnostic>& diagnostics);
+
+} // namespace fetexc::cli

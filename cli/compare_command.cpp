@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// `fetexc compare`: how far a texture is from the drawing it was made of, or from another one.
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/compare_input.h"
+#include "cli/compare_outcome.h"
+#include "cli/difference_picture.h"
+#include "cli/image_file.h"
+#include "cli/io.h"
+#include "cli/load_scene.h"
+#include "cli/messages.h"
+#include "cli/options.h"
+#include "compiler/diagnostics.h"
+#include "compiler/measure/classifier.h"
+
+namespace fetexc::cli {
+namespace {
+
+constexpr std::uint32_t kDefaultPixels = 1024;
+constexpr double kMaxReach = 64;
+
+struct CompareOptions {
+    std::string truth, other, diff;
+    std::vector<std::uint32_t> sizes;   ///< pixels on the longer side
+    std::vector<double> magnifications; ///< pixels a texel of the other
+    double reach = measure::MeasureOptions{}.reach;
+    SceneOptions scene;
+    Thresholds thresholds;
+    unsigned threads = 0;
+    bool nearest = false, json = false, quiet = false;
+};
+
+/// What OTHER is held against: a scene or a picture.
+struct TruthFile {
+    std::unique_ptr<const LoadedScene> loaded; ///< what `scene` points into
+    std::unique_ptr<const measure::Truth> scene;
+    ComparedPicture picture;
+    std::string description;
+};
+
+Error usage(std::string message, std::string place = {}) {
+    return {ErrorClass::Usage, diag::kBadUsage, std::move(message), std::move(place)};
+}
+
+Error at(const std::string& path, const Error& e) {
+    return {e.cls, e.code, e.message, e.place.empty() ? path : e.place};
+}
+
+Result<TruthFile> load_scene_truth(const ComparedFile& file, const CompareOptions& options, GridSize texels) {
+    std::vector<Diagnostic> diagnostics;
+    auto loaded =
+        scene_of_bytes(file.bytes, options.scene, std::max(texels.width, texels.height), options.threads, diagnostics);
+    print_diagnostics(diagnostics, file.path, options.quiet);
+    if (!loaded) return at(file.path, loaded.error());
+    TruthFile out;
+    out.loaded = std::make_unique<const LoadedScene>(std::move(loaded).value());
+    auto truth = measure::Truth::of(out.loaded->scene, options.threads);
+    if (!truth) return at(file.path, truth.error());
+    out.scene = std::move(truth).value();
+    out.description = fmt::format("drawing of {:.6g} x {:.6g} units, {} visible edges", out.loaded->scene.extent.width,
+                                  out.loaded->scene.extent.height, out.scene->edges().size());
+    return out;
+}
+
+Result<TruthFile> load_truth(const ComparedFile& file, const CompareOptions& options, GridSize texels) {
+    if (file.kind == FileKind::Svg) return load_scene_truth(file, options, texels);
+    auto picture = picture_of(file, options.nearest ? measure::BitmapPicture::Filter::Nearest
+                                                    : measure::BitmapPicture::Filter::Bilinear);
+    if (!picture) return picture.error();
+    TruthFile out;
+    out.picture = std::move(picture).value();
+    out.description = out.picture.description;
+    return out;
+}
+
+/// The sizes asked for, then the magnifications.
+Result<std::vector<GridSize>> output_sizes(const CompareOptions& options, double aspect, GridSize texels) {
+    std::vector<GridSize> sizes;
+    for (const std::uint32_t longer : options.sizes) {
+        const PixelSize size = resolve_size({0, 0, longer}, aspect);
+        sizes.push_back({size.width, size.height});
+    }
+    for (const double magnification : options.magnifications) {
+        const double width = std::round(texels.width * magnification),
+                     height = std::round(texels.height * magnification);
+        if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+            return usage(fmt::format("--magnification {:g} of {} x {} texels gives no output size from 1 to {}",
+                                     magnification, texels.width, texels.height, kMaxSide));
+        sizes.push_back({static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
+    }
+    return sizes;
+}
+
+/// Fills in the figures.
+Status measure_all(const TruthFile& truth, const measure::Picture& other, const std::vector<GridSize>& sizes,
+                   const CompareOptions& options, CompareOutcome& outcome) {
+    if (!truth.scene) {
+        for (const GridSize size : sizes)
+            outcome.differences.push_back(measure::difference(*truth.picture.picture, other, size, options.threads));
+        return {};
+    }
+    measure::MeasureOptions how;
+    how.sizes = sizes, how.reach = options.reach, how.threads = options.threads;
+    auto errors = measure::measure(*truth.scene, other, how);
+    if (!errors) return errors.error();
+    outcome.errors = std::move(errors).value();
+    outcome.texel_side = measure::texel_side(*truth.scene, other);
+    outcome.height = truth.scene->height();
+    return {};
+}
+
+Status write_difference(const TruthFile& truth, const measure::Picture& other, GridSize pixels,
+                        const CompareOptions& options) {
+    if (std::uint64_t{pixels.width} * pixels.height > fetex::kMaxImagePixels)
+        return usage(fmt::format("--diff takes at most {} pixels, and the last size is {} x {}", fetex::kMaxImagePixels,
+                                 pixels.width, pixels.height));
+    auto expected = truth.scene ? truth.scene->picture(pixels, options.threads)
+                                : measure::box_means(*truth.picture.picture, pixels, options.threads);
+    if (!expected) return expected.error();
+    const std::vector<Rgba> found = measure::box_means(other, pixels, options.threads);
+    const auto png = encode_png(difference_picture(expected.value(), found, pixels));
+    if (!png) return at(options.diff, png.error());
+    return write_output(options.diff, png.value());
+}
+
+Status check_options(const CompareOptions& options) {
+    if (options.truth == "-" && options.other == "-") return usage("only one of the files can be stdin");
+    if (options.thresholds.distance && *options.thresholds.distance > options.reach)
+        return usage(
+            fmt::format("--max-distance {:g} is beyond --reach {:g}", *options.thresholds.distance, options.reach));
+    for (const std::string& input : {options.truth, options.other}) {
+        if (same_file(input, options.diff))
+            return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
+                         options.diff};
+    }
+    if (options.diff == "-") return usage("--diff needs a file: stdout has the figures");
+    return {};
+}
+
+Status check_kinds(const ComparedFile& truth, const ComparedFile& other, const CompareOptions& options) {
+    if (other.kind == FileKind::Svg)
+        return usage("OTHER must be a .fetex or a PNG; a drawing can only be the truth", other.path);
+    const Thresholds& t = options.thresholds;
+    if (truth.kind != FileKind::Svg && (t.misclassified || t.distance || t.islands))
+        return usage("--max-misclassified, --max-distance and --max-islands need an SVG as TRUTH", truth.path);
+    return {};
+}
+
+Result<CompareOutcome> compare(const CompareOptions& options) {
+    if (const Status status = check_options(options); !status) return status.error();
+    const auto truth_file = read_compared(options.truth), other_file = read_compared(options.other);
+    if (!truth_file) return truth_file.error();
+    if (!other_file) return other_file.error();
+    if (const Status status = check_kinds(truth_file.value(), other_file.value(), options); !status)
+        return status.error();
+    const auto other = picture_of(other_file.value(), options.nearest ? measure::BitmapPicture::Filter::Nearest
+                                                                      : measure::BitmapPicture::Filter::Bilinear);
+    if (!other) return other.error();
+    const measure::Picture& picture = *other.value().picture;
+    const auto truth = load_truth(truth_file.value(), options, picture.texels());
+    if (!truth) return truth.error();
+    const GridSize shape = truth.value().scene ? GridSize{} : truth.value().picture.picture->texels();
+    const double aspect =
+        truth.value().scene ? 1 / truth.value().scene->height() : static_cast<double>(shape.width) / shape.height;
+    const auto sizes = output_sizes(options, aspect, picture.texels());
+    if (!sizes) return sizes.error();
+
+    CompareOutcome outcome;
+    outcome.truth = options.truth, outcome.other = options.other;
+    outcome.truth_kind = truth.value().description, outcome.other_kind = other.value().description;
+    outcome.texels = picture.texels(), outcome.gpu_bytes = picture.gpu_bytes();
+    if (const Status status = measure_all(truth.value(), picture, sizes.value(), options, outcome); !status)
+        return at(options.truth, status.error());
+    outcome.checks = check(outcome, options.thresholds);
+    if (!options.diff.empty()) {
+        const Status status = write_difference(truth.value(), picture, sizes.value().back(), options);
+        if (!status) return status.error();
+    }
+    return outcome;
+}
+
+int run_compare(CompareOptions options) {
+    if (options.sizes.empty() && options.magnifications.empty()) options.sizes = {kDefaultPixels};
+    const auto outcome = compare(options);
+    if (!outcome) return report_error(outcome.error());
+    fmt::print("{}", options.json ? compare_json(outcome.value()) : compare_text(outcome.value()));
+    for (const ThresholdCheck& c : outcome.value().checks) {
+        if (!c.passed)
+            print_message(
+                describe(Diagnostic{Severity::Error, diag::kBeyondThreshold, describe(c), {}}, options.other));
+    }
+    return all_passed(outcome.value()) ? kExitOk : kExitDifference;
+}
+
+void add_threshold(CLI::App& app, const std::string& name, std::optional<double>& value, const std::string& help,
+                   const std::string& unit) {
+    app.add_option(name, value, help)->check(CLI::Range(0.0, 1e9))->type_name(unit);
+}
+
+void add_thresholds(CLI::App& app, Thresholds& t) {
+    add_threshold(app, "--max-misclassified", t.misclassified, "Exit 7 when more of the area shows a wrong colour",
+                  "PPM");
+    add_threshold(app, "--max-distance", t.distance, "Exit 7 when an edge is farther from where it belongs, either way",
+                  "TEXELS");
+    add_threshold(app, "--min-psnr", t.psnr, "Exit 7 when the anti-aliased picture is worse", "DB");
+    add_threshold(app, "--max-color", t.color,
+                  "Exit 7 when a colour (away from edges, if TRUTH is an SVG) is off by more than N/255", "N");
+    add_threshold(app, "--max-islands", t.islands, "Exit 7 when more islands are lost or false", "N");
+}
+
+} // namespace
+
+Command add_compare_command(CLI::App& parent) {
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App* app =
+        parent.add_subcommand("compare", "Say how far a texture is from a drawing, or from another texture");
+    app->add_option("truth", options->truth, "What is right: an SVG, a .fetex or a PNG; - for stdin")
+        ->required()
+        ->type_name("TRUTH");
+    app->add_option("other", options->other, "What is judged: a .fetex or a PNG; - for stdin")
+        ->required()
+        ->type_name("OTHER");
+    app->add_option("--size", options->sizes, "Output sizes: pixels on the longer side (default 1024)")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, kMaxSide))
+        ->type_name("N,...");
+    app->add_option("--magnification", options->magnifications, "Output sizes: pixels a texel of OTHER")
+        ->delimiter(',')
+        ->check(CLI::Range(1.0 / kMaxSide, static_cast<double>(kMaxSide)))
+        ->type_name("X,...");
+    app->add_flag("--nearest", options->nearest, "Look PNGs up without interpolation; default: bilinear");
+    app->add_option("--reach", options->reach,
+                    "Texels within which edges are looked for and colours may come from the other side (default 1.5)")
+        ->check(CLI::Range(0.1, kMaxReach))
+        ->type_name("TEXELS");
+    add_thresholds(*app, options->thresholds);
+    app->add_option("--diff", options->diff,
+                    "Write a PNG of the last size: the truth in grey, wrong pixels from yellow (2/255) to black")
+        ->type_name("FILE");
+    app->add_flag("--json", options->json, "Print JSON (cli/schema/compare.schema.json)");
+    app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the figures")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+    add_scene_options(*app, options->scene);
+    add_quiet_option(*app, options->quiet);
+    return {app, [options] { return run_compare(*options); }};
+}
+
+} // namespace fetexc::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/compare_input.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cli/fetex_input.h"
+#include "cli/image_file.h"
+#include "cli/io.h"
+#include "compiler/diagnostics.h"
+
+namespace fetexc::cli {
+namespace {
+
+FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+    const auto starts_with = [&](std::string_view magic) {
+        return bytes.size() >= magic.size() &&
+               std::equal(magic.begin(), magic.end(), bytes.begin(),
+                          [](char a, auto b) { return static_cast<std::uint8_t>(a) == b; });
+    };
+    if (starts_with("\x89"
+                    "FTX") ||
+        path.ends_with(".fetex"))
+        return FileKind::Asset;
+    return starts_with("\x89PNG") || path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
+}
+
+Result<ComparedPicture> asset_picture(const ComparedFile& file) {
+    auto input = fetex_of_bytes(file.bytes, file.path);
+    if (!input) return input.error();
+    if (!input.value().file.fbt)
+        return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no FBT", file.path};
+    ComparedPicture out;
+    out.texture = std::make_unique<const fetex::FbtTexture>(std::move(*input.value().file.fbt));
+    out.picture = std::make_unique<const measure::FbtPicture>(*out.texture);
+    out.description = fmt::format("FBT of {} x {} texels, {} bytes on the GPU", out.texture->width, out.texture->height,
+                                  out.picture->gpu_bytes());
+    return out;
+}
+
+Result<ComparedPicture> bitmap_picture(const ComparedFile& file, measure::BitmapPicture::Filter filter) {
+    auto decoded = decode_png(file.bytes);
+    if (!decoded) return Error{decoded.error().cls, decoded.error().code, decoded.error().message, file.path};
+    const GridSize size{decoded.value().width, decoded.value().height};
+    ComparedPicture out;
+    out.picture = std::make_unique<const measure::BitmapPicture>(size, std::move(decoded.value().rgba), filter);
+    out.description = fmt::format("bitmap of {} x {} texels, {} lookup, {} bytes on the GPU", size.width, size.height,
+                                  filter == measure::BitmapPicture::Filter::Nearest ? "nearest" : "bilinear",
+                                  out.picture->gpu_bytes());
+    return out;
+}
+
+} // namespace
+
+Result<ComparedFile> read_compared(const std::string& path) {
+    auto bytes = read_input(path, kMaxFetexBytes);
+    if (!bytes) return bytes.error();
+    const FileKind kind = kind_of(path, bytes.value());
+    return ComparedFile{path, kind, std::move(bytes).value()};
+}
+
+Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter) {
+    return file.kind == FileKind::Asset ? asset_picture(file) : bitmap_picture(file, filter);
+}
+
+} // namespace fetexc::cli

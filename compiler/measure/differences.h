@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Two pictures against each other, where there is no scene to say what is right: no edges, no classes, only colours.
+#pragma once
+
+#include <vector>
+
+#include "compiler/measure/picture.h"
+
+namespace fetexc::measure {
+
+/// At one output size; sample points as in measure/errors.h. Differences are the largest of a channel, of premultiplied
+/// RGBA, 0…1.
+struct PictureDifference {
+    GridSize pixels;
+    double different_ppm = 0; ///< share of sample points that differ by more than 1/255
+    double max = 0, mean = 0;
+    TexturePoint place; ///< of max
+    double psnr = 0;    ///< dB, of the box means, over black and over white; infinite for equal pictures
+};
+
+/// pixels: 1 … 16384 on each side. The same figures for any number of threads.
+PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads);
+
+/// Box means of all pixels, row-major (measure/pixel_means.h). Edges that neither a pixel's corners nor its centre
+/// betray are missed.
+std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads);
+
+/// Mean square error of r, g, b over black and over white.
+double mean_square_error(const std::vector<Rgba>& a, const std::vector<Rgba>& b);
+
+} // namespace fetexc::measure
