@@ -91,6 +91,10 @@ inline constexpr int kPreciseSteps = 16;
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 
+/// Bits of a parameter at which cubics are exact to kFixedBits: art that is symmetric passes corners of the grid at 1/2
+/// and 1/4.
+inline constexpr int kWholeBits = kFixedBits / 3;
+
 /// Units of 2^-kFixedBits: rounding errs by half a unit, so a difference beyond this has a certain sign.
 inline constexpr int kFixedCertain = 4;
 

@@ -151,6 +151,8 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
 std::optional<int> side_of_level(const Curve& c, Axis axis, std::int64_t level, const Interval& t, std::int64_t v) {
     const Axis across = other(axis);
     if (c.along(across).magnitude == 0) return sign_of(c.along(across).origin - v);
+    if (const std::optional<FixedPoint> p = whole_level(c, axis, level, t))
+        return sign_of(along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits));
     if (const std::optional<FixedPoint> p = fixed_level(c, axis, level, t)) {
         if (const int side = certain_sign(along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits)); side != 0)
             return side;

@@ -73,6 +73,17 @@ TEST(EnclosedFixed, HoldsItsEndsAndLittleElse) {
     }
 }
 
+TEST(WholeLevel, IsExactWhereTheCurvePassesAnIntegerPoint) {
+    // (0,0) (2,2) (6,2) (8,0): half way at (4, 3/2).
+    const Curve c = make_curve(3, {IntPoint{0, 0}, {2, 2}, {6, 2}, {8, 0}});
+    const auto p = whole_level(c, Axis::X, 4, {0.5 - 0x1p-50, 0.5 + 0x1p-49});
+    ASSERT_TRUE(p);
+    EXPECT_EQ(p->x, Fixed{4} << budget::kFixedBits);
+    EXPECT_EQ(p->y, Fixed{3} << (budget::kFixedBits - 1));
+    EXPECT_FALSE(whole_level(c, Axis::X, 3, {0.3, 0.5}));            // 3/8: another value
+    EXPECT_FALSE(whole_level(c, Axis::X, 4, {0.5 + 0x1p-50, 0.51})); // doesn't hold it
+}
+
 /// Up to the rounding of v.
 bool holds(const Interval& range, Fixed v) {
     return mpq_class(range.lo) <= rational(v + 1, budget::kFixedBits) &&
