@@ -288,8 +288,7 @@ class Filter {
     }
 
     static bool subdivide(const Pair& pair, std::vector<Pair>& stack) {
-        if (pair.a.range.width() < budget::kFilterMinWidth && pair.b.range.width() < budget::kFilterMinWidth)
-            return false;
+        if (pair.depth >= budget::kFilterMaxDepth) return false;
         const Box p = box_of(pair.a), q = box_of(pair.b);
         const double la = std::max(p.x1 - p.x0, p.y1 - p.y0), lb = std::max(q.x1 - q.x0, q.y1 - q.y0);
         Part al, ar, bl, br;

@@ -317,6 +317,14 @@ std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v,
     return point;
 }
 
+std::optional<FixedPoint> whole_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t) {
+    const double nearest = std::ldexp(std::round(std::ldexp(t.mid(), budget::kWholeBits)), -budget::kWholeBits);
+    if (!t.contains(nearest)) return {};
+    const std::int64_t s = ShortParameter(nearest).mid;
+    const FixedPoint p{FixedCoordinate(c, Axis::X).at(s), FixedCoordinate(c, Axis::Y).at(s)};
+    return (axis == Axis::X ? p.x : p.y) == to_fixed(v) ? std::optional(p) : std::nullopt;
+}
+
 std::optional<FixedPoint> fixed_extremum(const Curve& c, const Interval& t) {
     const std::optional<Dyadic> root = narrow_extremum(c, t, budget::kFixedParameterBits);
     return root ? std::optional(fixed_at(c, *root)) : std::nullopt;

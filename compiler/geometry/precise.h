@@ -43,6 +43,8 @@ std::optional<NarrowContact> narrow_contact(const Curve& a, const Curve& b, cons
 FixedPoint fixed(IntPoint p);
 FixedPoint fixed_contact(const Curve& a, const NarrowContact& c);
 std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t);
+/// Exact: where the curve takes the value v at the nearest parameter of kWholeBits. None: it doesn't.
+std::optional<FixedPoint> whole_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t);
 std::optional<FixedPoint> fixed_extremum(const Curve& c, const Interval& t);
 
 } // namespace fetexc

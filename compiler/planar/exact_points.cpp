@@ -76,6 +76,14 @@ std::optional<Ratio> ratio_on_line(const ArcSet& set, const Vertex& v, std::uint
     return positive(from, from - to);
 }
 
+/// As side_of_level, for a line that isn't on a level itself.
+int side_of_line(const Curve& line, Axis axis, std::int64_t level, std::int64_t v) {
+    const IntPoint at = axis == Axis::X ? IntPoint{level, v} : IntPoint{v, level};
+    const int turn = sign_of(cross(line.p[0], line.p[1], at));
+    const bool rising = axis == Axis::X ? line.p[1].x > line.p[0].x : line.p[1].y > line.p[0].y;
+    return rising == (axis == Axis::X) ? -turn : turn;
+}
+
 int compare(const Ratio& a, const Ratio& b) {
     if (a.denominator == b.denominator) return sign_of(a.numerator - b.numerator);
     return cmp(to_integer(a.numerator) * to_integer(b.denominator),
@@ -145,6 +153,9 @@ std::optional<int> side_of_level(const ArcSet& set, const Vertex& a, Axis axis, 
 std::optional<int> side_of_level(const Curve& c, Axis axis, std::int64_t level, const Interval& t, std::int64_t v) {
     const Axis across = other(axis);
     if (c.along(across).magnitude == 0) return sign_of(c.along(across).origin - v);
+    if (c.degree == 1) return side_of_line(c, axis, level, v);
+    if (const std::optional<FixedPoint> p = whole_level(c, axis, level, t))
+        return sign_of(along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits));
     if (const std::optional<FixedPoint> p = fixed_level(c, axis, level, t)) {
         if (const int side = certain_sign(along(*p, across) - (static_cast<Fixed>(v) << budget::kFixedBits)); side != 0)
             return side;

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "compiler/planar/algebraic_coordinate.h"
+#include "compiler/planar/exact_points.h"
+#include "tests/support/random.h"
 
 namespace fetexc::test {
 namespace {
@@ -61,6 +63,28 @@ TEST(AlgebraicCoordinate, ScaledCurvesAreLevelThroughTheirImages) {
     const Curve c = cubic(kRising), other = cubic(wide);
     EXPECT_EQ(compare(ordinate(c, 163841), ordinate(other, 2 * 163841 + 7)), 0);
     EXPECT_EQ(compare(ordinate(c, 163841), ordinate(other, 2 * 163841 + 8)), 1);
+}
+
+TEST(SideOfLevel, OfLinesIsTheRationalOne) {
+    std::array<int, 3> seen{};
+    for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+        Random random(seed);
+        std::array<IntPoint, 4> p{};
+        for (std::size_t i = 0; i < 2; ++i)
+            p[i] = {random.integer(-9, 9), random.integer(-9, 9)};
+        const Axis axis = random.chance(0.5) ? Axis::X : Axis::Y;
+        const std::int64_t level = random.integer(-9, 9), v = random.integer(-9, 9);
+        const Curve line = make_curve(1, p);
+        const Polynomial along = power_basis(line, axis), across = minus(power_basis(line, other(axis)), to_mpz(v));
+        if (line.along(axis).magnitude == 0) continue;
+        const mpz_class rise = along[1];
+        const mpq_class t = mpq_class(to_mpz(level) - along[0]) / rise;
+        if (t < 0 || t > 1) continue;
+        const int side = sgn(evaluate(across, t));
+        ++seen[static_cast<std::size_t>(side + 1)];
+        EXPECT_EQ(side_of_level(line, axis, level, {0, 1}, v), side) << "seed " << seed;
+    }
+    EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 100);
 }
 
 } // namespace
