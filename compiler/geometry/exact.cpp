@@ -8,12 +8,19 @@
 namespace fetexc {
 namespace {
 
-/// Parameter of the stretch where the coordinate passes v, to within 2^-bits of the range; clamped to the range.
+/// Parameter of the stretch where the coordinate passes v, to within 2^-bits of the range; clamped to the stretch. The
+/// outer range of a stretch that ends in an extremum reaches a little beyond it, where the coordinate turns back.
 RationalRange bisect(const Stretch& s, const Polynomial& p, bool increasing, const mpq_class& v, int bits) {
+    const Polynomial slope = derivative(p), bend = derivative(slope);
+    const int up = increasing ? 1 : -1;
+    const auto turned_back = [&](const mpq_class& t) { return up * sgn(evaluate(slope, t)) < 0; };
     mpq_class lo(s.range.lo), hi(s.range.hi);
+    const bool before = turned_back(lo), after = turned_back(hi);
     for (int k = 0; k < bits; ++k) {
         const mpq_class mid = (lo + hi) / 2;
-        const bool below = increasing ? evaluate(p, mid) < v : evaluate(p, mid) > v;
+        bool below = increasing ? evaluate(p, mid) < v : evaluate(p, mid) > v;
+        // Between two extrema the slope has one vertex, and bends towards the direction of the stretch before it.
+        if (turned_back(mid)) below = before && (!after || up * sgn(evaluate(bend, mid)) > 0);
         (below ? lo : hi) = mid;
     }
     return {lo, hi};

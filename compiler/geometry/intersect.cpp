@@ -377,6 +377,20 @@ PairOutcome intersect_certified(const ControlPolygon& a, const ControlPolygon& b
     return Filter(a, b, known).run(found);
 }
 
+namespace {
+
+/// Of a point that lies on the quadratic's parabola: crossed with the second difference, only the linear term is left.
+/// Products stay below 2^91; the divisor isn't 0, because curves aren't collinear.
+Interval parameter_on_parabola(const Curve& c, IntPoint p) {
+    const IntPoint o = c.p[0], bend{c.p[2].x - 2 * c.p[1].x + o.x, c.p[2].y - 2 * c.p[1].y + o.y};
+    const auto with_bend = [&](IntPoint q) {
+        return static_cast<Int128>(q.x - o.x) * bend.y - static_cast<Int128>(q.y - o.y) * bend.x;
+    };
+    return rounded(with_bend(p)) / rounded(2 * with_bend(c.p[1]));
+}
+
+} // namespace
+
 std::optional<Interval> point_on_stretch(const ControlPolygon& polygon, IntPoint p) {
     const Stretch& s = polygon.stretch;
     const Curve& c = *s.curve;
@@ -396,8 +410,10 @@ std::optional<Interval> point_on_stretch(const ControlPolygon& polygon, IntPoint
     if (!value_over(c, over_y ? Axis::X : Axis::Y, t).contains(over_y ? x : y)) return {};
     if (c.degree == 1) return t;
     if (implicit_sign(c, p) != 0) return {};
-    // Inside a stretch of a curve that doesn't cross itself, that is proof.
-    if (c.degree == 2 && t.lo > s.range.lo && t.hi < s.range.hi) return t;
+    if (c.degree == 2) {
+        const Interval exact = parameter_on_parabola(c, p);
+        return exact.overlaps(s.range) ? std::optional(exact) : std::nullopt;
+    }
     return parameter_of_point(c, p, s.range);
 }
 

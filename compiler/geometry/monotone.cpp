@@ -79,6 +79,7 @@ bool have_common_root(const Derivative& p, const Derivative& q) {
         return mpz_class(mpz_class(static_cast<long>(a)) * static_cast<long>(d) -
                          mpz_class(static_cast<long>(b)) * static_cast<long>(c));
     };
+    if (p.a == 0 && q.a == 0) return minor(p.b, p.c, q.b, q.c) == 0; // linear: the resultant below is 0 at infinity
     const mpz_class ac = minor(p.a, p.c, q.a, q.c);
     return ac * ac == 4 * minor(p.a, p.b, q.a, q.b) * minor(p.b, p.c, q.b, q.c);
 }

@@ -320,6 +320,7 @@ std::optional<FixedPoint> fixed_level(const Curve& c, Axis axis, std::int64_t v,
 std::optional<FixedPoint> whole_level(const Curve& c, Axis axis, std::int64_t v, const Interval& t) {
     const double nearest = std::ldexp(std::round(std::ldexp(t.mid(), budget::kWholeBits)), -budget::kWholeBits);
     if (!t.contains(nearest)) return {};
+    if (derivative_over(c, axis, t).sign() == 0) return {}; // t might hold the other side of an extremum, too
     const std::int64_t s = ShortParameter(nearest).mid;
     const FixedPoint p{FixedCoordinate(c, Axis::X).at(s), FixedCoordinate(c, Axis::Y).at(s)};
     return (axis == Axis::X ? p.x : p.y) == to_fixed(v) ? std::optional(p) : std::nullopt;

@@ -71,6 +71,14 @@ mpq_class NodeOrder::coordinate(std::uint32_t node, Axis axis) {
     return mpq_class(axis == Axis::X ? n.x : n.y);
 }
 
+/// The enclosures of nodes without finer coordinates may be as wide as their distance: the middle of what lies between.
+mpq_class NodeOrder::level_between(std::uint32_t a, std::uint32_t b, Axis axis) {
+    const auto range = [&](std::uint32_t n) { return axis == Axis::X ? map_.node(n).x_range : map_.node(n).y_range; };
+    const Interval u = range(a), v = range(b);
+    if (u.hi < v.lo) return (mpq_class(u.hi) + mpq_class(v.lo)) / 2;
+    return (coordinate(a, axis) + coordinate(b, axis)) / 2;
+}
+
 bool NodeOrder::before(std::uint32_t a, std::uint32_t b) {
     if (const int c = compare(a, b, Axis::Y); c != 0) return c < 0;
     if (const int c = compare(a, b, Axis::X); c != 0) return c < 0;
@@ -80,7 +88,8 @@ bool NodeOrder::before(std::uint32_t a, std::uint32_t b) {
 void NodeOrder::sort(std::vector<std::uint32_t>& nodes) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    std::sort(nodes.begin(), nodes.end(), [&](std::uint32_t a, std::uint32_t b) { return before(a, b); });
+    // Stable: memory-safe also where an undecided comparison makes this no order (E4001 follows).
+    std::stable_sort(nodes.begin(), nodes.end(), [&](std::uint32_t a, std::uint32_t b) { return before(a, b); });
 }
 
 void NodeOrder::rank(std::span<const std::uint32_t> nodes, std::vector<NodeRank>& ranks) {
@@ -89,7 +98,7 @@ void NodeOrder::rank(std::span<const std::uint32_t> nodes, std::vector<NodeRank>
         ranks[k].y = ranks[k - 1].y + (compare(nodes[k - 1], nodes[k], Axis::Y) != 0 ? 1 : 0);
     by_x_.resize(nodes.size());
     std::iota(by_x_.begin(), by_x_.end(), 0u);
-    std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    std::stable_sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t a, std::uint32_t b) {
         const int c = compare(nodes[a], nodes[b], Axis::X);
         return c != 0 ? c < 0 : a < b;
     });

@@ -30,6 +30,8 @@ class NodeOrder {
     int compare(std::uint32_t a, std::uint32_t b, Axis axis);
     /// Some comparison found no answer (and gave "equal").
     [[nodiscard]] bool undecided() const { return undecided_; }
+    /// A level strictly between the nodes' coordinates, of which a's is known to be smaller.
+    mpq_class level_between(std::uint32_t a, std::uint32_t b, Axis axis);
     /// Coordinate of a node, as narrow as comparisons needed it.
     mpq_class coordinate(std::uint32_t node, Axis axis);
 

@@ -281,7 +281,7 @@ int Sweep::order_between(std::uint32_t e, std::uint32_t f, Axis axis, std::uint3
         if (const int c = compare(position_at(a, axis, level), position_at(b, axis, level)); c != 0) return c;
     }
     ++stats_.exact_comparisons;
-    const mpq_class level = (order_.coordinate(nodes_[from], axis) + order_.coordinate(nodes_[to], axis)) / 2;
+    const mpq_class level = order_.level_between(nodes_[from], nodes_[to], axis);
     const int c = compare_positions_exact(a, b, axis, level);
     decided_ = decided_ && c != 0;
     return c;

@@ -150,7 +150,7 @@ int TexelPlane::order_between(const PlaneArc& a, const PlaneArc& b, PlanePoint f
         if (const int c = fetexc::compare(x_at(sa, level), x_at(sb, level)); c != 0) return c;
     }
     ++stats_.exact_comparisons;
-    const mpq_class exact = (order_.coordinate(map_node(from), Axis::Y) + order_.coordinate(map_node(to), Axis::Y)) / 2;
+    const mpq_class exact = order_.level_between(map_node(from), map_node(to), Axis::Y);
     const int c = compare_positions_exact(sa, sb, Axis::Y, exact);
     if (c == 0) throw UndecidedPlane{};
     return c;

@@ -151,6 +151,13 @@ TEST(Extrema, NearCuspsAreCounted) {
     EXPECT_EQ(near_cusps, 0u);
 }
 
+/// Quadratics have no cusps: their extrema at quotients of neighbouring Fibonacci numbers, 1.5e-16 apart, are two.
+TEST(Extrema, NearCuspsOfQuadraticsAreCounted) {
+    std::uint64_t near_cusps = 0;
+    EXPECT_EQ(extrema(curve({{0, 0}, {-39088169, -63245986}, {-14930352, -24157817}}), &near_cusps).size(), 1u);
+    EXPECT_EQ(near_cusps, 1u);
+}
+
 TEST(ParameterAt, EnclosesTheExactRoot) {
     Random random(4);
     for (int k = 0; k < 5000; ++k) {
@@ -319,12 +326,48 @@ TEST(PointOnStretch, TellsTheCurveFromItsNeighbourhood) {
     EXPECT_FALSE(point_on_stretch(rising, {3 << 19, 3 << 18}).has_value()) << "on the other half";
 }
 
+/// A hairpin whose branches are 6e-8 apart: the point is half way, on the last of the three stretches.
+TEST(PointOnStretch, TellsTheBranchesOfAParabola) {
+    const Curve hairpin = curve({{0, 0}, {-8388032, -8388544}, {128, 128}});
+    const std::vector<Stretch> all = stretches(hairpin);
+    ASSERT_EQ(all.size(), 3u);
+    int hits = 0;
+    for (const Stretch& s : all) {
+        const std::optional<Interval> t = point_on_stretch(s, {-4193984, -4194240});
+        EXPECT_EQ(t.has_value(), s.range.contains(0.5));
+        if (!t) continue;
+        EXPECT_TRUE(t->contains(0.5));
+        ++hits;
+    }
+    EXPECT_EQ(hits, 1);
+}
+
 TEST(CompareExact, SeparatesStretchesFarBelowDoubleResolution) {
     const std::int64_t n = std::int64_t{1} << 40;
     const Curve a = curve({{0, 0}, {n, n}}), b = curve({{0, 0}, {n - 1, n}});
     const Stretch sa = stretches(a)[0], sb = stretches(b)[0];
     EXPECT_EQ(compare_positions_exact(sa, sb, Axis::Y, mpq_class(0x1p-40)), 1) << "2^-80 apart";
     EXPECT_EQ(compare_positions_exact(sb, sa, Axis::Y, mpq_class(0x1p-40)), -1);
+}
+
+/// Outer ranges of stretches reach beyond the extremum, where the parabola has the level a second time.
+TEST(CompareExact, StaysOnItsSideOfAnExtremum) {
+    const Curve bowl = curve({{0, 0}, {1 << 20, 0}, {1 << 21, 1 << 20}}); // y = 2^20 t², x = 2^21 t
+    const Curve wall = curve({{1, 0}, {1, 1 << 20}});
+    const mpq_class level(0x1p-10); // x = ±2^6
+    for (const double beyond : {0x1p-40, 0x1p-10, 0x1p-2}) {
+        const Stretch right{&bowl, {-beyond, 1}, true, true}, left{&bowl, {-1, beyond}, true, false};
+        const Stretch upright{&wall, {0, 1}, true, true};
+        EXPECT_EQ(compare_positions_exact(right, upright, Axis::Y, level), 1) << beyond;
+        EXPECT_EQ(compare_positions_exact(left, upright, Axis::Y, level), -1) << beyond;
+        EXPECT_EQ(compare_position_exact(right, Axis::Y, level, 64), 0) << beyond;
+    }
+    // Both ends reach beyond: y = 3t² − 2t³ (times 2^20) rises from 0 to 1.
+    const Curve step = curve({{0, 0}, {1 << 20, 0}, {1 << 21, 1 << 20}, {3 << 20, 1 << 20}});
+    const Stretch both{&step, {-0x1p-4, 1 + 0x1p-4}, true, true};
+    EXPECT_EQ(compare_position_exact(both, Axis::Y, mpq_class(1 << 19), mpq_class(3 << 19)), 0);
+    EXPECT_EQ(compare_position_exact(both, Axis::Y, mpq_class(0x1p-10), 0), 1);
+    EXPECT_EQ(compare_position_exact(both, Axis::Y, (1 << 20) - mpq_class(0x1p-10), 3 << 20), -1);
 }
 
 } // namespace
