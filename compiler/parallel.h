@@ -19,10 +19,18 @@
 
 namespace fetexc {
 
-/// How many threads `threads` asks for.
+/// How many threads `threads` asks for: no more than there are processors.
 inline std::size_t thread_count(unsigned threads) {
-    return threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
+    const unsigned all = std::max(1u, std::thread::hardware_concurrency());
+    return threads == 0 ? all : std::min(threads, all);
 }
+
+#if !defined(__SANITIZE_THREAD__)
+/// oneTBB warns of more threads than there are processors; `automatic` obeys masks of processors.
+inline tbb::task_arena arena_of(unsigned threads) {
+    return tbb::task_arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(thread_count(threads)));
+}
+#endif
 
 /// body(k) for k = 0 … count − 1, on `threads` threads (0: all). In any order: what the calls write must not depend on
 /// it.
@@ -40,8 +48,7 @@ template <class Body> void parallel_for(std::size_t count, unsigned threads, con
     for (std::thread& t : pool)
         t.join();
 #else
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
+    arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
 #endif
 }
 
@@ -69,8 +76,7 @@ template <class T, class Less> void parallel_sort(std::vector<T>& items, unsigne
     std::sort(items.begin(), items.end(), less);
     static_cast<void>(threads);
 #else
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-    arena.execute([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
+    arena_of(threads).execute([&] { tbb::parallel_sort(items.begin(), items.end(), less); });
 #endif
 }
 

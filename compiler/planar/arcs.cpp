@@ -97,6 +97,7 @@ class Preparer {
         : first_bent_(merged.first_bent), runs_(std::move(merged.runs)), threads_(threads), stats_(stats) {
         out_.curves = std::move(merged.curves);
         out_.contributions = std::move(merged.contributions);
+        out_.too_many_contributions = merged.too_many;
     }
 
     ArcSet run(std::span<const SharedSupport> shared) {
@@ -222,18 +223,19 @@ class Preparer {
     }
 
     void emit_elementary(const std::vector<Member>& members, const SupportCut& from, const SupportCut& to) {
-        std::vector<Contribution> sums;
+        Windings sums;
         const Member* carrier = nullptr;
         for (const Member& m : members) {
             if (m.lo.t.mid() > from.t.mid() || m.hi.t.mid() < to.t.mid()) continue;
             if (carrier == nullptr) carrier = &m;
             const int sign = (m.map.alpha < 0) == (carrier->map.alpha < 0) ? 1 : -1;
             const ContributionRun run = runs_[m.curve];
-            for (std::uint32_t k = run.first; k < run.first + run.count; ++k)
-                add_contribution(sums, out_.contributions[k].shape, sign * out_.contributions[k].winding);
+            add_windings(sums, std::span(out_.contributions).subspan(run.first, run.count), sign);
         }
-        normalise(sums);
         if (carrier == nullptr || sums.empty()) return;
+        out_.too_many_contributions =
+            out_.too_many_contributions || out_.contributions.size() + sums.size() > kMaxContributions;
+        if (out_.too_many_contributions) return;
         End a = on_carrier(*carrier, from), b = on_carrier(*carrier, to);
         if (carrier->map.alpha < 0) std::swap(a, b);
         ++stats_.pieces_shared;

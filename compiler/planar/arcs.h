@@ -47,7 +47,8 @@ struct ArcSet {
     std::vector<Vertex> vertices;
     std::vector<Arc> arcs;
     std::vector<Contribution> contributions;
-    std::uint32_t undecided = kNone; ///< a vertex whose place couldn't be decided
+    bool too_many_contributions = false; ///< kMaxContributions; some are missing
+    std::uint32_t undecided = kNone;     ///< a vertex whose place couldn't be decided
 
     [[nodiscard]] Stretch stretch_of(const Arc& a) const {
         return {&curves[a.curve], {a.t0.lo, a.t1.hi}, a.x_increasing, a.y_increasing};

@@ -133,7 +133,7 @@ class PairTest {
             return;
         }
         std::vector<ExactHit> hits;
-        if (intersect_exact(sa, sb, hits, known_) == ExactOutcome::Undecided) report(set_.vertices[a.v0]);
+        if (intersect_exact(sa, sb, hits, known_) != ExactOutcome::Done) report(set_.vertices[a.v0]);
         for (const ExactHit& h : hits)
             add(ia, ib, {h.s, h.t}, &h.narrow); // a known one that is left turns out to be one vertex with it
     }
@@ -175,7 +175,7 @@ class PairTest {
     }
 
     void report(const Vertex& vertex) {
-        if (!out_.undecided) out_.undecided = {pair_, vertex};
+        if (!out_.undecided || pair_ < out_.undecided->pair) out_.undecided = {pair_, vertex};
     }
 
     const ArcSet& set_;
@@ -282,6 +282,10 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         PlanarStats pass = {};
         Arrangement out;
         out.set = prepare_arcs(scene, grid, shared, pass, threads, skip);
+        if (out.set.too_many_contributions) {
+            return Error{ErrorClass::InvalidInput, diag::kSceneTooLarge,
+                         "too many shapes have borders on one line or curve", ""};
+        }
         const UnwrittenVector<ArcShape> shapes = shapes_of(out.set, threads);
         std::vector<BoxItem> boxes = canvas_boxes(grid, shapes);
         const std::uint64_t in_fans = skip.fans ? group_fans(out.set, boxes) : 0;
@@ -289,9 +293,9 @@ Result<Arrangement> arrange(const Scene& scene, const Grid& grid, unsigned threa
         std::sort(found.shared.begin(), found.shared.end());
         found.shared.erase(std::unique(found.shared.begin(), found.shared.end()), found.shared.end());
         const std::size_t known = shared.size();
-        for (const SharedSupport& s : found.shared) {
-            if (std::find(shared.begin(), shared.end(), s) == shared.end()) shared.push_back(s);
-        }
+        std::vector<SharedSupport> all;
+        std::set_union(shared.begin(), shared.end(), found.shared.begin(), found.shared.end(), std::back_inserter(all));
+        shared = std::move(all);
         if (shared.size() > known) continue;
 
         settle(out.set, found, threads);

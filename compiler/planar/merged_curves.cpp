@@ -74,6 +74,19 @@ LineKey line_key(const Use& line) {
     return k;
 }
 
+/// Shapes come in ascending order. Sums of 0 stay.
+void append(Windings& sums, std::uint32_t shape, std::int32_t winding) {
+    if (!sums.empty() && sums.back().shape == shape) {
+        sums.back().winding += winding;
+    } else {
+        sums.push_back({shape, winding});
+    }
+}
+
+void drop_zeros(Windings& sums) {
+    std::erase_if(sums, [](const Contribution& c) { return c.winding == 0; });
+}
+
 class Merger {
   public:
     Merger(const Grid& grid, unsigned threads, const SkipRules& skip, PlanarStats& stats)
@@ -156,13 +169,17 @@ class Merger {
             events.push_back({u.p[0], u.shape, u.winding});
             events.push_back({u.p[1], u.shape, -u.winding});
         }
-        std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+        std::sort(events.begin(), events.end(),
+                  [](const Event& a, const Event& b) { return std::tie(a.at, a.shape) < std::tie(b.at, b.shape); });
         sums_.clear();
+        Windings changes;
         for (std::size_t i = 0; i < events.size();) {
             const IntPoint at = events[i].at;
+            changes.clear();
             for (; i < events.size() && events[i].at == at; ++i)
-                add_contribution(sums_, events[i].shape, events[i].winding);
-            normalise(sums_);
+                append(changes, events[i].shape, events[i].winding);
+            drop_zeros(changes);
+            add_windings(sums_, changes, 1);
             if (i < events.size() && !sums_.empty()) emit({1, {at, events[i].at}});
         }
         stats_.pieces_shared += group.size() - 1;
@@ -179,9 +196,9 @@ class Merger {
             const std::size_t begin = i;
             sums_.clear();
             for (; i < order.size() && polygon(order[i]) == polygon(order[begin]); ++i)
-                add_contribution(sums_, bent_[order[i]].shape, bent_[order[i]].winding);
+                append(sums_, bent_[order[i]].shape, bent_[order[i]].winding);
             stats_.pieces_shared += i - begin - 1;
-            normalise(sums_);
+            drop_zeros(sums_);
             if (!sums_.empty()) emit({bent_[order[begin]].degree, bent_[order[begin]].p});
         }
     }
@@ -192,6 +209,8 @@ class Merger {
     };
 
     void emit(const Polygon& polygon) {
+        out_.too_many = out_.too_many || out_.contributions.size() + sums_.size() > kMaxContributions;
+        if (out_.too_many) return;
         polygons_.push_back(polygon);
         out_.runs.push_back(
             {static_cast<std::uint32_t>(out_.contributions.size()), static_cast<std::uint32_t>(sums_.size())});
@@ -212,24 +231,11 @@ class Merger {
     PlanarStats& stats_;
     std::vector<Use> lines_, bent_;
     std::vector<Polygon> polygons_; ///< of the merged curves
-    std::vector<Contribution> sums_;
+    Windings sums_;
     MergedCurves out_;
 };
 
 } // namespace
-
-void add_contribution(std::vector<Contribution>& sums, std::uint32_t shape, std::int32_t winding) {
-    const auto it = std::find_if(sums.begin(), sums.end(), [&](const Contribution& c) { return c.shape == shape; });
-    if (it != sums.end())
-        it->winding += winding;
-    else
-        sums.push_back({shape, winding});
-}
-
-void normalise(std::vector<Contribution>& sums) {
-    std::erase_if(sums, [](const Contribution& c) { return c.winding == 0; });
-    std::sort(sums.begin(), sums.end(), [](const Contribution& a, const Contribution& b) { return a.shape < b.shape; });
-}
 
 MergedCurves merge_curves(const Scene& scene, const Grid& grid, PlanarStats& stats, unsigned threads,
                           const SkipRules& skip) {

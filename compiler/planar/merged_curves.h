@@ -9,20 +9,13 @@
 #include "compiler/compile.h"
 #include "compiler/geometry/curve.h"
 #include "compiler/planar/grid.h"
+#include "compiler/planar/windings.h"
 #include "compiler/scene/scene.h"
 
 namespace fetexc {
 
-/// Following the curve with growing t, the shape's contour runs `winding` times along (negative: against).
-struct Contribution {
-    std::uint32_t shape = 0;
-    std::int32_t winding = 0;
-};
-
-/// Adds to the shape's sum.
-void add_contribution(std::vector<Contribution>& sums, std::uint32_t shape, std::int32_t winding);
-/// By shape, without zeros.
-void normalise(std::vector<Contribution>& sums);
+/// 2 GiB of them: nested shapes along one line, or on one curve, have as many as the square of their number.
+inline constexpr std::size_t kMaxContributions = std::size_t{1} << 28;
 
 struct ContributionRun {
     std::uint32_t first = 0, count = 0;
@@ -33,6 +26,7 @@ struct MergedCurves {
     std::size_t first_bent = 0;
     std::vector<ContributionRun> runs; ///< of each curve
     std::vector<Contribution> contributions;
+    bool too_many = false; ///< contributions: kMaxContributions; some are missing
 
     [[nodiscard]] std::span<const Contribution> of(std::uint32_t curve) const {
         return std::span(contributions).subspan(runs[curve].first, runs[curve].count);

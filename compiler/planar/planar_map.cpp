@@ -30,16 +30,6 @@ bool is_line(HalfStep h) { return h >= 0 && h % 2 == 0; }
 
 } // namespace
 
-void add_winding(Windings& w, std::uint32_t shape, std::int32_t change) {
-    const auto it =
-        std::lower_bound(w.begin(), w.end(), shape, [](const Contribution& c, std::uint32_t s) { return c.shape < s; });
-    if (it == w.end() || it->shape != shape) {
-        w.insert(it, {shape, change});
-    } else if ((it->winding += change) == 0) {
-        w.erase(it);
-    }
-}
-
 /// Walks a chunk of the edges over the grid. Chunks know nothing of each other: a node that one makes is numbered from
 /// the number of the map's vertices on, until they are joined.
 class PlanarMap::EdgeWalk {
@@ -384,7 +374,7 @@ LinePosition PlanarMap::position(std::uint32_t n, Axis across) const {
     return {h, is_line(h) ? kNone : n};
 }
 
-bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across) const {
+bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across, bool& undecided) const {
     if (a.h != b.h) return a.h < b.h;
     if (a.node == b.node) return false;
     const GridNode &p = nodes_[a.node], &q = nodes_[b.node];
@@ -395,7 +385,8 @@ bool PlanarMap::before(const LinePosition& a, const LinePosition& b, Axis across
         if (const int c = certain_sign(across == Axis::X ? s->y - t->y : s->x - t->x); c != 0) return c < 0;
     }
     const std::optional<int> c = compare(algebraic(a.node, other(across)), algebraic(b.node, other(across)));
-    return c.value_or(u.mid() < v.mid() ? -1 : 1) < 0;
+    undecided = undecided || !c;
+    return c.value_or(0) < 0;
 }
 
 std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) const {
@@ -404,21 +395,22 @@ std::span<const SubEdge> PlanarMap::sub_edges(std::uint32_t i, std::uint32_t j) 
 }
 
 bool PlanarMap::runs_along(Axis across, std::uint32_t i, std::uint32_t j, const LinePosition& from,
-                           const LinePosition& to) const {
+                           const LinePosition& to, bool& undecided) const {
     const std::pair key(across, j * grid_.width + i);
     auto it = std::lower_bound(side_edges_.begin(), side_edges_.end(), key,
                                [](const SideEdge& s, const auto& k) { return std::pair(s.across, s.texel) < k; });
     for (; it != side_edges_.end() && std::pair(it->across, it->texel) == key; ++it) {
         LinePosition a = position(it->n0, across), b = position(it->n1, across);
-        if (before(b, a, across)) std::swap(a, b);
-        if (before(a, to, across) && before(from, b, across)) return true;
+        if (before(b, a, across, undecided)) std::swap(a, b);
+        if (before(a, to, across, undecided) && before(from, b, across, undecided)) return true;
     }
     return false;
 }
 
 Stretch PlanarMap::stretch_of(const SubEdge& s) const {
     const Arc& a = arrangement_.set.arcs[arrangement_.edges[s.edge].arc];
-    return {&arrangement_.set.curves[a.curve], s.range, a.x_increasing, a.y_increasing};
+    const Interval range(std::max(s.range.lo, a.t0.lo), std::min(s.range.hi, a.t1.hi));
+    return {&arrangement_.set.curves[a.curve], range, a.x_increasing, a.y_increasing};
 }
 
 std::span<const Contribution> PlanarMap::contributions_of(const SubEdge& s) const {
@@ -430,9 +422,7 @@ std::span<const RowStep> PlanarMap::steps_of(std::uint32_t row) const {
 }
 
 void PlanarMap::apply(Windings& w, const RowStep& step) const {
-    for (const Contribution& c : arrangement_.set.contributions_of(arrangement_.set.arcs[step.arc])) {
-        add_winding(w, c.shape, step.sign * c.winding);
-    }
+    add_windings(w, arrangement_.set.contributions_of(arrangement_.set.arcs[step.arc]), step.sign);
 }
 
 bool PlanarMap::runs_down(const SubEdge& s) const {
@@ -442,8 +432,7 @@ bool PlanarMap::runs_down(const SubEdge& s) const {
 void PlanarMap::cross_row_line(Windings& w, const SubEdge& s, HalfStep line) const {
     if (nodes_[s.n0].hy != line && nodes_[s.n1].hy != line) return;
     const int sign = runs_down(s) ? 1 : -1;
-    for (const Contribution& c : contributions_of(s))
-        add_winding(w, c.shape, sign * c.winding);
+    add_windings(w, contributions_of(s), sign);
 }
 
 } // namespace fetexc

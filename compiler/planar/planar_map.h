@@ -61,10 +61,6 @@ struct LinePosition {
     friend bool operator==(const LinePosition&, const LinePosition&) = default;
 };
 
-using Windings = std::vector<Contribution>; ///< ascending shapes, no zeros
-
-void add_winding(Windings& w, std::uint32_t shape, std::int32_t change);
-
 class PlanarMap {
   public:
     static Result<PlanarMap> build(const Scene& scene, const Grid& grid, unsigned threads, PlanarStats& stats,
@@ -79,8 +75,8 @@ class PlanarMap {
     [[nodiscard]] AlgebraicCoordinate algebraic(std::uint32_t n, Axis axis) const;
     /// Position of a node on a line across the axis (X: a vertical line).
     [[nodiscard]] LinePosition position(std::uint32_t n, Axis across) const;
-    /// a comes before b on a line across the axis.
-    [[nodiscard]] bool before(const LinePosition& a, const LinePosition& b, Axis across) const;
+    /// a comes before b on a line across the axis. undecided is set if nothing could tell, and left alone otherwise.
+    [[nodiscard]] bool before(const LinePosition& a, const LinePosition& b, Axis across, bool& undecided) const;
     [[nodiscard]] std::span<const SubEdge> sub_edges(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] Stretch stretch_of(const SubEdge& s) const;
     [[nodiscard]] std::span<const Contribution> contributions_of(const SubEdge& s) const;
@@ -88,7 +84,7 @@ class PlanarMap {
     /// Some edge runs along the side that texel (i,j) shares with its left (across X) or upper (across Y) neighbour,
     /// somewhere between the two positions.
     [[nodiscard]] bool runs_along(Axis across, std::uint32_t i, std::uint32_t j, const LinePosition& from,
-                                  const LinePosition& to) const;
+                                  const LinePosition& to, bool& undecided) const;
 
     /// Runs along row j from left to right; `visit(i, windings)` gets the winding numbers at the texel's corner (X_i +
     /// 0, Y_j + 0), left of everything inside the texel; i = width is the right border, seen from inside. For j =

@@ -25,11 +25,13 @@ void ReachabilityRow::append(Parts& parts, const LinePosition& from, std::uint32
 /// visit(vertex of a, vertex of b, from, to) for every stretch along which the two face each other.
 template <class Visit>
 void ReachabilityRow::facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end,
-                             const Visit& visit) {
+                             bool& undecided, const Visit& visit) {
     const auto end_of = [&](const Parts& parts, std::size_t k) {
         return k + 1 < parts.size() ? parts[k + 1].from : LinePosition{end};
     };
-    const auto before = [&](const LinePosition& p, const LinePosition& q) { return map.before(p, q, across); };
+    const auto before = [&](const LinePosition& p, const LinePosition& q) {
+        return map.before(p, q, across, undecided);
+    };
     std::size_t i = 0, k = 0;
     while (i < a.size() && k < b.size()) {
         const LinePosition a_end = end_of(a, i), b_end = end_of(b, k);
@@ -47,13 +49,15 @@ std::uint32_t ReachabilityRow::new_vertex(ResultId result) {
 }
 
 void ReachabilityRow::link_to_left(const Parts& left) {
-    facing(*map_, Axis::X, right_, left, 2 * static_cast<HalfStep>(row_) + 2,
+    bool undecided = false;
+    facing(*map_, Axis::X, right_, left, 2 * static_cast<HalfStep>(row_) + 2, undecided,
            [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
                if (result_[a] == result_[b])
                    links_.push_back({a, b});
-               else if (!conflict_ && !map_->runs_along(Axis::X, next_, row_, from, to))
+               else if (!conflict_ && !map_->runs_along(Axis::X, next_, row_, from, to, undecided))
                    conflict_ = {next_, row_};
            });
+    if (undecided && !conflict_) conflict_ = {next_, row_};
 }
 
 std::uint32_t ReachabilityRow::add_empty(ResultId result) {
@@ -131,7 +135,9 @@ ReachabilityGraph::RowLinks ReachabilityGraph::links_of(const ReachabilityRow& r
 
 void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below,
                                   RowLinks& out) const {
+    bool undecided = false;
     ReachabilityRow::facing(map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width),
+                            undecided,
                             [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
                                 if (above.result_[a] == below.result_[b]) {
                                     out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
@@ -140,10 +146,11 @@ void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& a
                                 const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
                                 for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
                                     const auto i = static_cast<std::uint32_t>(h);
-                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to))
+                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to, undecided))
                                         out.conflict = {i, below.row_};
                                 }
                             });
+    if (undecided && !out.conflict) out.conflict = {0, below.row_};
 }
 
 void ReachabilityGraph::find_components() {

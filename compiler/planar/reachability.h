@@ -54,7 +54,7 @@ class ReachabilityRow {
     using Parts = std::vector<Part>;
     static void append(Parts& parts, const LinePosition& from, std::uint32_t vertex);
     template <class Visit>
-    static void facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end,
+    static void facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end, bool& undecided,
                        const Visit& visit);
     std::uint32_t new_vertex(ResultId result);
     void link_to_left(const Parts& left);

@@ -88,8 +88,7 @@ bool TexelMapper::assign_results(const Windings& corner, TexelMap& out) {
             const SubEdge& sub = out.sub_edges[edge.sub];
             const std::int32_t sign = edge.down ? direction : -direction;
             windings_[to] = windings_[face];
-            for (const Contribution& c : map_.contributions_of(sub))
-                add_winding(windings_[to], c.shape, sign * c.winding);
+            add_windings(windings_[to], map_.contributions_of(sub), sign);
             known_[to] = true;
             queue_.push_back(to);
         }

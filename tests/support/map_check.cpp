@@ -166,8 +166,7 @@ class Checker {
         const auto across = [&](const Portion& p, bool rightwards) {
             const SweepEdge& e = texel.graph.edges[p.edge];
             Windings w = faces.windings[faces.region[rightwards ? p.left : p.right]];
-            for (const Contribution& c : map_.contributions_of(texel.sub_edges[e.sub]))
-                add_winding(w, c.shape, e.down == rightwards ? c.winding : -c.winding);
+            add_windings(w, map_.contributions_of(texel.sub_edges[e.sub]), e.down == rightwards ? 1 : -1);
             return w;
         };
         for (bool grew = true; grew;) {
