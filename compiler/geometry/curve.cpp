@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/curve.h"
+#include "compiler/geometry/orientation.h"
 
 #include <cstdlib>
 
 namespace fetexc {
 namespace {
-
-using Int128 = __int128;
-
-Int128 cross(IntPoint o, IntPoint a, IntPoint b) {
-    return static_cast<Int128>(a.x - o.x) * (b.y - o.y) - static_cast<Int128>(a.y - o.y) * (b.x - o.x);
-}
 
 Coordinate coordinate(const Curve& c, Axis axis) {
     Coordinate out;

@@ -29,7 +29,7 @@ struct RootBracket {
 
 RationalRange rational_range(const RootBracket& root);
 
-/// Narrows to one unit of 2^-bits, or to the root. With more bits than before only.
+/// Narrows to one unit of 2^-bits, or to the root.
 void narrow(RootBracket& root, const Polynomial& p, int bits);
 
 /// The roots within [lo, hi], ascending. None: an end isn't dyadic, or two roots were still together after so many

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact decisions, for what the floating-point certificates can't decide. Slow (1 µs … 1 ms); callers count the calls.
-/// Integers and rationals are GMP's, root isolation is CGAL's Algebraic_kernel_d_1. CGAL stays behind this header.
+/// Integers and rationals are GMP's, roots are isolated by Descartes' rule (dyadic_roots.h), multiple ones by
+/// CGAL's Algebraic_kernel_d_1, which stays behind this header.
 #pragma once
 
 #include <gmpxx.h>
@@ -54,7 +55,7 @@ struct ExactHit {
 enum class ExactOutcome { Done, CommonComponent, Undecided };
 
 /// Common points of two monotone stretches whose algebraic curves differ, each decided exactly; parameters enclosed to
-/// kRefineBits. Those of `known` contacts with an exact parameter (0 or 1) are left out.
+/// 2·kRefineBits. Those of `known` contacts with an exact parameter (0 or 1) are left out.
 ExactOutcome intersect_exact(const Stretch& a, const Stretch& b, std::vector<ExactHit>& hits,
                              std::span<const Contact> known = {});
 /// The same with every root from CGAL's algebraic kernel: slow, for tests.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/intersect.h"
+#include "compiler/geometry/orientation.h"
 
 namespace fetexc {
 namespace {
-
-using Int128 = __int128;
 
 struct Vector {
     double x = 0, y = 0;
@@ -318,12 +317,6 @@ class Filter {
     std::vector<Contact> hits_;
     bool undecidable_ = false;
 };
-
-Int128 cross(IntPoint o, IntPoint a, IntPoint b) {
-    return static_cast<Int128>(a.x - o.x) * (b.y - o.y) - static_cast<Int128>(a.y - o.y) * (b.x - o.x);
-}
-
-int sign_of(Int128 v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
 Interval rounded(Int128 v) {
     const double d = static_cast<double>(v);

@@ -34,6 +34,9 @@ inline double widen_down(double r) {
 }
 inline double widen_up(double r) { return r + (std::fabs(r) * (2 * budget::kUnitRoundoff) + budget::kUnderflowGuard); }
 
+/// Empty (lo > hi) if they don't overlap.
+inline Interval meet(const Interval& a, const Interval& b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
+inline bool empty(const Interval& v) { return !(v.lo <= v.hi); }
 inline Interval hull(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
 inline Interval operator+(const Interval& a, const Interval& b) {

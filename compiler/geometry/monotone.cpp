@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/geometry/monotone.h"
+#include "compiler/geometry/orientation.h"
 
 #include <gmpxx.h>
 
 namespace fetexc {
 namespace {
-
-using Int128 = __int128;
-
-int sign_of(Int128 v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
 /// q(t) = a·t² + 2b·t + c: the derivative up to a positive factor, exact.
 struct Derivative {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/geometry/orientation.h"
 #include "compiler/geometry/precise.h"
 
 #include <array>
@@ -53,12 +54,15 @@ bool precise_enough(const PointEnclosure& p, double size) {
     return precise_enough(p.x, size) && precise_enough(p.y, size);
 }
 
-Interval meet(const Interval& a, const Interval& b) {
-    const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
-    return m.lo <= m.hi ? m : hull(a, b);
+/// Of two enclosures of one value; the hull if one of them isn't.
+Interval meet_or_hull(const Interval& a, const Interval& b) {
+    const Interval m = meet(a, b);
+    return empty(m) ? hull(a, b) : m;
 }
 
-PointEnclosure meet(const PointEnclosure& a, const PointEnclosure& b) { return {meet(a.x, b.x), meet(a.y, b.y)}; }
+PointEnclosure meet_or_hull(const PointEnclosure& a, const PointEnclosure& b) {
+    return {meet_or_hull(a.x, b.x), meet_or_hull(a.y, b.y)};
+}
 
 // --- one polynomial
 
@@ -156,14 +160,9 @@ class ContactRefiner {
     Dyadic s_, t_;
 };
 
-/// Twice the signed area of (o, a, b): below 2^91.
-Fixed area(IntPoint o, IntPoint a, IntPoint b) {
-    return static_cast<Fixed>(a.x - o.x) * (b.y - o.y) - static_cast<Fixed>(a.y - o.y) * (b.x - o.x);
-}
-
 /// Where line b crosses line a.
 mpq_class line_parameter(const Curve& a, const Curve& b) {
-    const Fixed from = area(b.p[0], b.p[1], a.p[0]), to = area(b.p[0], b.p[1], a.p[1]);
+    const Fixed from = cross(b.p[0], b.p[1], a.p[0]), to = cross(b.p[0], b.p[1], a.p[1]);
     mpq_class s(to_integer(from), to_integer(from - to));
     s.canonicalize();
     return s;
@@ -188,7 +187,7 @@ Fixed scaled_share(Fixed part, Fixed whole, std::int64_t length) {
 
 /// Exact quotients, rounded outwards.
 PointEnclosure line_crossing(const Curve& a, const Curve& b) {
-    const Fixed from = area(b.p[0], b.p[1], a.p[0]), whole = from - area(b.p[0], b.p[1], a.p[1]);
+    const Fixed from = cross(b.p[0], b.p[1], a.p[0]), whole = from - cross(b.p[0], b.p[1], a.p[1]);
     const auto at = [&](std::int64_t v0, std::int64_t v1) {
         if (v0 == v1) return Interval(static_cast<double>(v0));
         const Fixed v = (static_cast<Fixed>(v0) << 64) + scaled_share(from, whole, v1 - v0);
@@ -250,14 +249,14 @@ std::optional<PointEnclosure> short_point(const Curve& a, const Curve& b, double
 
 PointEnclosure contact_point(const Curve& a, const Curve& b, Contact& c) {
     if (a.degree == 1 && b.degree == 1) return line_crossing(a, b);
-    const PointEnclosure plain = meet(plain_point(a, c.s), plain_point(b, c.t));
+    const PointEnclosure plain = meet_or_hull(plain_point(a, c.s), plain_point(b, c.t));
     const double size = std::max(size_of(a), size_of(b));
     if (precise_enough(plain, size)) return plain;
     if (const auto p = short_point(a, b, size, c)) return *p;
     ContactRefiner refiner(a, b, budget::kPreciseBits);
     if (!refiner.run(c)) return plain;
     c = {range_of(refiner.s()), range_of(refiner.t())};
-    return meet(point_at(a, refiner.s()), point_at(b, refiner.t()));
+    return meet_or_hull(point_at(a, refiner.s()), point_at(b, refiner.t()));
 }
 
 PointEnclosure level_point(const Stretch& s, Axis axis, double v, Interval& t) {

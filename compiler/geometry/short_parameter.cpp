@@ -39,8 +39,6 @@ Interval enclose_evaluated(Fixed v, int error, const Interval& beside) {
     return enclose_fixed(v, v, budget::kFixedBits) + (beside + Interval(-e, e));
 }
 
-Interval meet(const Interval& a, const Interval& b) { return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)}; }
-bool empty(const Interval& v) { return !(v.lo <= v.hi); }
 
 } // namespace
 
@@ -60,7 +58,7 @@ void ShortParameter::narrow_to(const Interval& new_rest) {
 
 FixedCoordinate::FixedCoordinate(const Curve& c, Axis axis) : power_(power_coefficients(c, axis)) {}
 
-// Coefficients are below 2^47 (c.p below 2^43), so for |t| < 2 all sums are below 2^52 steps; each product is rounded
+// Coefficients are below 2^48 (c.p below 2^43), so for |t| < 2 all sums are below 2^52 steps; each product is rounded
 // by less than a unit, which the ones after it at most double.
 Fixed FixedCoordinate::at(std::int64_t t) const {
     const auto term = [&](std::size_t i) { return static_cast<Fixed>(power_[i]) << budget::kFixedBits; };

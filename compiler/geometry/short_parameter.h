@@ -10,7 +10,7 @@
 
 namespace fetexc {
 
-/// Coordinate in units of 2^-kFixedBits: planar coordinates (below 2^44) to far below anything doubles tell apart.
+/// Coordinate in units of 2^-kFixedBits: planar coordinates (below 2^43) to far below anything doubles tell apart.
 using Fixed = __int128;
 
 using Unsigned128 = unsigned __int128;

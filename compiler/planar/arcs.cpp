@@ -163,8 +163,7 @@ class Preparer {
             c.join(out_, stats_);
     }
 
-    // --- curves that share their algebraic curve
-    // ---------------------------------------------------------------------------------
+    // --- curves that share their algebraic curve ---
 
     static std::map<std::uint32_t, std::vector<std::uint32_t>> support_groups(std::span<const SharedSupport> shared) {
         std::map<std::uint32_t, std::uint32_t> parent;

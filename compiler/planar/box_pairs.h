@@ -25,7 +25,7 @@ using IdPair = std::pair<std::uint32_t, std::uint32_t>; ///< smaller id first
 /// with everything but itself, or a vertical strip with the pairs whose second box, from left to right, begins in it.
 class BoxPairs {
   public:
-    /// A batch of pairs, ascending. Which pairs come together is CGAL's choice and differs from run to run.
+    /// A batch of pairs, ascending. Which pairs come together is CGAL's choice.
     using Visitor = std::function<void(std::span<const IdPair>)>;
 
     explicit BoxPairs(std::vector<BoxItem> items);

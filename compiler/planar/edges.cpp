@@ -51,9 +51,8 @@ bool sort_apart(const Arc& arc, std::vector<OnArc>& entries) {
 
 /// Each representative takes the best that is known of its point.
 void join_vertices(ArcSet& set, std::span<const std::uint32_t> representative) {
-    const auto meet = [](const Interval& a, const Interval& b) {
-        const Interval m(std::max(a.lo, b.lo), std::min(a.hi, b.hi));
-        return m.lo <= m.hi ? m : a;
+    const auto narrow = [](Interval& a, const Interval& b) {
+        if (a.overlaps(b)) a = meet(a, b);
     };
     for (std::uint32_t k = 0; k < set.vertices.size(); ++k) {
         if (representative[k] == k) continue;
@@ -63,7 +62,7 @@ void join_vertices(ArcSet& set, std::span<const std::uint32_t> representative) {
         if (v.integral)
             r = v;
         else
-            r.x = meet(r.x, v.x), r.y = meet(r.y, v.y);
+            narrow(r.x, v.x), narrow(r.y, v.y);
     }
 }
 

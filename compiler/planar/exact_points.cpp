@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/planar/exact_points.h"
 
+#include "compiler/geometry/orientation.h"
+
 namespace fetexc {
 namespace {
 
 const Interval& along(const Vertex& v, Axis axis) { return axis == Axis::X ? v.x : v.y; }
 Fixed along(const FixedPoint& p, Axis axis) { return axis == Axis::X ? p.x : p.y; }
-
-int sign_of(Fixed v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
 /// The derivative whose sign changes over t.
 Polynomial extremum_polynomial(const Curve& c, const Interval& t) {
@@ -54,10 +54,6 @@ struct Ratio {
     Fixed numerator = 0, denominator = 1; ///< denominator > 0
 };
 
-Fixed cross(IntPoint o, IntPoint a, IntPoint b) {
-    return static_cast<Fixed>(a.x - o.x) * (b.y - o.y) - static_cast<Fixed>(a.y - o.y) * (b.x - o.x);
-}
-
 Ratio positive(Fixed n, Fixed d) { return d < 0 ? Ratio{-n, -d} : Ratio{n, d}; }
 
 /// Parameter of a vertex on a line, when it is an integer point or a crossing with another line.
@@ -91,13 +87,6 @@ int compare(const Ratio& a, const Ratio& b) {
 }
 
 } // namespace
-
-Fixed fixed_from(double v) {
-    // Planar coordinates are below 2^44: in two exact steps, because the whole doesn't fit a double's integer range.
-    const double whole = std::floor(v);
-    return (static_cast<Fixed>(static_cast<std::int64_t>(whole)) << budget::kFixedBits) +
-           static_cast<Fixed>(std::ldexp(v - whole, budget::kFixedBits));
-}
 
 std::optional<FixedPoint> fixed_point(const ArcSet& set, const Vertex& v) {
     if (v.integral) return fixed(v.point);

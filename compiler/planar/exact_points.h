@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact questions about vertices, for what their enclosures leave open. Each is first answered by intervals (inline
-/// comparisons of the caller), then by coordinates of 72 binary places, then by CGAL's algebraic kernel.
+/// comparisons of the caller), then by coordinates of 72 binary places, then by algebra; CGAL's kernel decides what 384
+/// bits leave open.
 #pragma once
 
 #include "compiler/geometry/polynomial.h"
@@ -9,8 +10,6 @@
 #include "compiler/planar/arcs.h"
 
 namespace fetexc {
-
-Fixed fixed_from(double v);
 
 /// Coordinates rounded to 2^-kFixedBits, from what defines the vertex; none where that is too badly conditioned.
 std::optional<FixedPoint> fixed_point(const ArcSet& set, const Vertex& v);

@@ -90,7 +90,7 @@ bool holds(const Interval& range, Fixed v) {
            rational(v - 1, budget::kFixedBits) <= mpq_class(range.hi);
 }
 
-/// A crossing of two random curves quadratics, at angles down to 2^-20, against 192 bits.
+/// A crossing of two random quadratics, at angles down to 2^-20, against 192 bits.
 TEST(ContactPoint, HoldsTheOneOfGmp) {
     int crossings = 0, tight = 0;
     for (std::uint64_t seed = 0; seed < 4000; ++seed) {
