@@ -69,7 +69,7 @@ Classifier::Class Classifier::classify(TexturePoint p, ResultId expected, const 
         if (candidate.result == expected) continue;
         const Rgba color = truth_.color(candidate.result, p);
         const double distance = color_distance(sampled, color);
-        if (!(distance < best - budget::kColourTie) || contrast(color, truth) < min_contrast_ ||
+        if (!(distance < best - budget::kColorDistanceTie) || contrast(color, truth) < min_contrast_ ||
             !within_reach(candidate, p))
             continue;
         best = distance, result = candidate.result;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
 #include "compiler/measure/errors.h"
 #include "compiler/measure/pixel_means.h"
@@ -14,8 +15,7 @@
 namespace fetexc::measure {
 namespace {
 
-/// A step of eight bits, and what rounding k / 255 in double may add to it.
-constexpr double kOneStep = 1.0 / 255 + 1e-9;
+constexpr double kOneStep = 1.0 / 255 + budget::kColorNoise; ///< of eight bits
 
 struct RowDifference {
     std::uint64_t different = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/measure/exact_picture.h"
@@ -30,11 +31,10 @@ struct PixelRange {
 
 /// Pixels that the stretch between two coordinates meets, rounding included.
 PixelRange range_of(double a, double b, std::uint32_t n) {
-    constexpr double slack = 1e-6;
     const auto index = [&](double v) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(v), 0.0, static_cast<double>(n - 1)));
     };
-    return {index(std::min(a, b) - slack), index(std::max(a, b) + slack)};
+    return {index(std::min(a, b) - budget::kCrossedSlack), index(std::max(a, b) + budget::kCrossedSlack)};
 }
 
 } // namespace
