@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "compiler/error_budget.h"
-#include "compiler/measure/classifier.h"
+#include "compiler/measure/colors.h"
 
 namespace fetexc::cli {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "compiler/error_budget.h"
 #include "compiler/measure/bilinear.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/parallel.h"
 
@@ -129,10 +130,8 @@ class Mix {
     [[nodiscard]] ResultId only() const { return shares_.size() == 1 ? shares_.front().first : kNone; }
     [[nodiscard]] Rgba color(const Truth& truth, TexturePoint p) const {
         Rgba sum;
-        for (const auto& [result, share] : shares_) {
-            const Rgba c = truth.color(result, p);
-            sum.r += share * c.r, sum.g += share * c.g, sum.b += share * c.b, sum.a += share * c.a;
-        }
+        for (const auto& [result, share] : shares_)
+            measure::add(sum, truth.color(result, p), share);
         return sum;
     }
 
@@ -144,7 +143,7 @@ std::uint32_t to_rgba8(const Rgba& c) {
     std::uint32_t packed = 0;
     int shift = 0;
     for (const double channel : {c.r, c.g, c.b, c.a}) {
-        packed |= static_cast<std::uint32_t>(std::lround(std::clamp(channel, 0.0, 1.0) * 255)) << shift;
+        packed |= std::uint32_t{to_byte(channel)} << shift;
         shift += 8;
     }
     return packed;
@@ -215,7 +214,8 @@ class Band {
         double from = top;
         const auto add_up_to = [&](double y) {
             if (y > from)
-                mix.add(truth_.result_at({budget::kBorderInset, (from + y) / 2 / truth_.height()}), (y - from) / row_height_);
+                mix.add(truth_.result_at({budget::kBorderInset, (from + y) / 2 / truth_.height()}),
+                        (y - from) / row_height_);
             from = y;
         };
         for (auto end = std::upper_bound(border_ends_.begin(), border_ends_.end(), top);

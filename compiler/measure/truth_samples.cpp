@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "compiler/error_budget.h"
-#include "compiler/measure/classifier.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/measure/exact_picture.h"
 #include "compiler/parallel.h"
