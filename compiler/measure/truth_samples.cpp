@@ -64,7 +64,7 @@ Result<TruthSamples> TruthSamples::of(const Truth& truth, GridSize pixels, const
     return samples;
 }
 
-/// An edge is monotone: between two of its points it stays in their box. Steps of a pixel at most.
+/// An edge is monotone: between two of its points it stays in their box. Steps of about a pixel.
 void TruthSamples::mark_crossed(const Truth& truth) {
     crossed_.assign(size(), 0);
     const auto to_pixels = [&](WidthPoint p) {
