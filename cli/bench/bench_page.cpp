@@ -48,6 +48,16 @@ FileGroup two_colored(const std::vector<BenchFile>& files) {
     return group;
 }
 
+/// In any plot of the group: those of single drawings show what applies to them.
+std::vector<std::string> methods_shown(const FileGroup& group) {
+    std::vector<std::string> shown;
+    for (const BenchFile* file : group) {
+        const std::vector<std::string> methods = methods_of({file});
+        shown.insert(shown.end(), methods.begin(), methods.end());
+    }
+    return shown;
+}
+
 std::string drawings(std::size_t count) { return count == 1 ? "one drawing" : fmt::format("{} drawings", count); }
 
 const char* explanation(std::size_t method) {
@@ -204,7 +214,7 @@ std::string how_measured(const std::vector<BenchFile>& files, const BenchPageFac
 
 std::string section(const FileGroup& group, const std::string& heading, const char* which,
                     const BenchPageFacts& facts) {
-    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_of(group)), plots_of(group, facts),
+    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_shown(group)), plots_of(group, facts),
                        small_plots_of(group, which));
 }
 
