@@ -188,7 +188,7 @@ inline constexpr double kColorNoise = 0x1p-28;
 /// dB: what a difference of kColorNoise everywhere gives, 20·log10(2^28). Above it, pictures are equal.
 inline constexpr double kEqualPsnr = 168.5;
 
-/// dB: right pictures come out between 71 and 97 (measure/README.md); above it, plots say "at most".
+/// dB: right pictures come out between 67 and 90 (measure/README.md); above it, plots say "at most".
 inline constexpr double kBestPsnr = 100;
 
 /// Squared distance of two colours, at most 4: a colour nearer by less than this is as near. Squares and sums err by
