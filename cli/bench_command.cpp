@@ -42,13 +42,17 @@ Status check_outputs(const BenchOptions& options) {
                              outputs[a]};
         }
         for (std::size_t b = 0; b < a; ++b) {
-            if (outputs[a] == outputs[b] || same_file(outputs[a], outputs[b]))
+            if (!outputs[b].empty() && identity(outputs[a]) == identity(outputs[b]))
                 return Error{ErrorClass::Usage, diag::kSameOutputTwice, "two outputs would be written there",
                              outputs[a]};
         }
     }
     if (std::count(options.inputs.begin(), options.inputs.end(), "-") > 1)
         return Error{ErrorClass::Usage, diag::kBadUsage, "stdin can be given only once", {}};
+    for (const std::string& output : outputs) {
+        if (output.empty()) continue;
+        if (const Status status = check_output(output); !status) return status; // now, not after minutes
+    }
     return {};
 }
 
@@ -113,7 +117,10 @@ int run_bench(BenchOptions options) {
     int exit = kExitOk;
     const std::vector<BenchFile> files = sweep_all(options, used, exit);
     if (files.empty()) return exit;
-    if (const Status status = write_all(options, files, used); !status) return report_error(status.error());
+    if (const Status status = write_all(options, files, used); !status) {
+        const int code = report_error(status.error());
+        return exit == kExitOk ? code : exit;
+    }
     return exit;
 }
 

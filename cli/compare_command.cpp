@@ -20,7 +20,8 @@ namespace fetexc::cli {
 namespace {
 
 constexpr std::uint32_t kDefaultPixels = 1024;
-constexpr double kMaxReach = 64;
+constexpr double kMaxReach = 64;       ///< texels
+constexpr double kMostThreshold = 1e9; ///< no figure is larger
 
 struct CompareOptions {
     std::string truth, other, diff;
@@ -45,8 +46,9 @@ Error usage(std::string message, std::string place = {}) {
     return {ErrorClass::Usage, diag::kBadUsage, std::move(message), std::move(place)};
 }
 
+/// "sign.svg: path#wheel", where the error says which element.
 Error at(const std::string& path, const Error& e) {
-    return {e.cls, e.code, e.message, e.place.empty() ? path : e.place};
+    return {e.cls, e.code, e.message, e.place.empty() ? path : fmt::format("{}: {}", path, e.place)};
 }
 
 Result<TruthFile> load_scene_truth(const ComparedFile& file, const CompareOptions& options, GridSize texels) {
@@ -114,9 +116,6 @@ Status measure_all(const TruthFile& truth, const measure::Picture& other, const 
 
 Status write_difference(const TruthFile& truth, const measure::Picture& other, GridSize pixels,
                         const CompareOptions& options) {
-    if (std::uint64_t{pixels.width} * pixels.height > fetex::kMaxImagePixels)
-        return usage(fmt::format("--diff takes at most {} pixels, and the last size is {} x {}", fetex::kMaxImagePixels,
-                                 pixels.width, pixels.height));
     auto expected = truth.scene ? truth.scene->picture(pixels, options.threads)
                                 : measure::box_means(*truth.picture.picture, pixels, options.threads);
     if (!expected) return expected.error();
@@ -137,7 +136,13 @@ Status check_options(const CompareOptions& options) {
                          options.diff};
     }
     if (options.diff == "-") return usage("--diff needs a file: stdout has the figures");
-    return {};
+    return options.diff.empty() ? Status() : check_output(options.diff);
+}
+
+Status check_difference_size(GridSize pixels, const CompareOptions& options) {
+    if (options.diff.empty() || std::uint64_t{pixels.width} * pixels.height <= fetex::kMaxImagePixels) return {};
+    return usage(fmt::format("--diff takes at most {} pixels, and the last size is {} x {}", fetex::kMaxImagePixels,
+                             pixels.width, pixels.height));
 }
 
 Status check_kinds(const ComparedFile& truth, const ComparedFile& other, const CompareOptions& options) {
@@ -167,6 +172,7 @@ Result<CompareOutcome> compare(const CompareOptions& options) {
         truth.value().scene ? 1 / truth.value().scene->height() : static_cast<double>(shape.width) / shape.height;
     const auto sizes = output_sizes(options, aspect, picture.texels());
     if (!sizes) return sizes.error();
+    if (const Status status = check_difference_size(sizes.value().back(), options); !status) return status.error();
 
     CompareOutcome outcome;
     outcome.truth = options.truth, outcome.other = options.other;
@@ -197,7 +203,7 @@ int run_compare(CompareOptions options) {
 
 void add_threshold(CLI::App& app, const std::string& name, std::optional<double>& value, const std::string& help,
                    const std::string& unit) {
-    app.add_option(name, value, help)->check(CLI::Range(0.0, 1e9))->type_name(unit);
+    app.add_option(name, value, help)->check(number_range(0, kMostThreshold))->type_name(unit);
 }
 
 void add_thresholds(CLI::App& app, Thresholds& t) {
@@ -229,12 +235,12 @@ Command add_compare_command(CLI::App& parent) {
         ->type_name("N,...");
     app->add_option("--magnification", options->magnifications, "Output sizes: pixels a texel of OTHER")
         ->delimiter(',')
-        ->check(CLI::Range(1.0 / kMaxSide, static_cast<double>(kMaxSide)))
+        ->check(number_range(1.0 / kMaxSide, kMaxSide))
         ->type_name("X,...");
     app->add_flag("--nearest", options->nearest, "Look PNGs up without interpolation; default: bilinear");
     app->add_option("--reach", options->reach,
                     "Texels within which edges are looked for and colours may come from the other side (default 1.5)")
-        ->check(CLI::Range(0.1, kMaxReach))
+        ->check(number_range(0.1, kMaxReach))
         ->type_name("TEXELS");
     add_thresholds(*app, options->thresholds);
     app->add_option("--diff", options->diff,

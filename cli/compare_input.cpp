@@ -21,10 +21,11 @@ FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes
                           [](char a, auto b) { return static_cast<std::uint8_t>(a) == b; });
     };
     if (starts_with("\x89"
-                    "FTX") ||
-        path.ends_with(".fetex"))
+                    "FTX"))
         return FileKind::Asset;
-    return starts_with("\x89PNG") || path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
+    if (starts_with("\x89PNG")) return FileKind::Png;
+    if (path.ends_with(".fetex")) return FileKind::Asset; // and damaged
+    return path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
 }
 
 Result<ComparedPicture> asset_picture(const ComparedFile& file) {

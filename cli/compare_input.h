@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Files of any kind that `compare` takes, told apart by what they hold, not by their names.
+/// Files of any kind that `compare` takes, told apart by what they hold; by their names only where that says nothing.
 #pragma once
 
 #include <cstdint>

@@ -7,11 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "compiler/error_budget.h"
+
 namespace fetexc::cli {
 namespace {
-
-/// 1/255: what double precision makes of equal colours.
-constexpr double kColorNoise = 1e-6;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -63,8 +62,8 @@ std::vector<ThresholdCheck> check(const CompareOutcome& outcome, const Threshold
         [](const Difference& d) { return d.psnr; });
     add(
         thresholds.color, "--max-color", "largest colour error", "/255",
-        [](double a, double b) { return a > b + kColorNoise; }, [](const Errors& e) { return e.away.max * 255; },
-        [](const Difference& d) { return d.max * 255; });
+        [](double a, double b) { return a > b + 255 * budget::kColorNoise; },
+        [](const Errors& e) { return e.away.max * 255; }, [](const Difference& d) { return d.max * 255; });
     add(
         thresholds.islands, "--max-islands", "lost and false islands", "", more,
         [](const Errors& e) { return static_cast<double>(e.islands.lost + e.islands.invented); }, nothing);

@@ -6,7 +6,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "compiler/measure/classifier.h"
+#include "compiler/error_budget.h"
+#include "compiler/measure/colors.h"
 
 namespace fetexc::cli {
 namespace {
@@ -45,7 +46,7 @@ fetex::Image difference_picture(const std::vector<Rgba>& truth, const std::vecto
     image.rgba.reserve(truth.size() * 4);
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const double difference = measure::contrast(truth[k], other[k]);
-        const Rgb c = difference > kLeast + 1e-9 ? wrong_color(difference) : grey(truth[k]);
+        const Rgb c = difference > kLeast + budget::kColorNoise ? wrong_color(difference) : grey(truth[k]);
         for (const double channel : {c.r, c.g, c.b, 1.0})
             image.rgba.push_back(static_cast<float>(channel));
     }

@@ -72,9 +72,27 @@ std::string resolve_link(const std::string& path) {
     return ec ? path : target.string();
 }
 
-Status write_and_rename(const std::string& path, const std::string& target, std::span<const std::uint8_t> bytes) {
+fs::path folder_of(const std::string& target) {
     const fs::path folder = fs::path(target).parent_path();
-    std::string temporary = ((folder.empty() ? fs::path(".") : folder) / ".fetexc-XXXXXX.tmp").string();
+    return folder.empty() ? fs::path(".") : folder;
+}
+
+/// What a path to write to names.
+struct Target {
+    std::string path;
+    bool in_place = false; ///< a device or a pipe
+};
+
+Result<Target> target_of(const std::string& path) {
+    std::string target = resolve_link(path);
+    std::error_code ec;
+    const fs::file_status status = fs::status(target, ec);
+    if (fs::is_directory(status)) return io_error(diag::kCannotCreate, path, "can't create", EISDIR);
+    return Target{std::move(target), fs::exists(status) && !fs::is_regular_file(status)};
+}
+
+Status write_and_rename(const std::string& path, const std::string& target, std::span<const std::uint8_t> bytes) {
+    std::string temporary = (folder_of(target) / ".fetexc-XXXXXX.tmp").string();
     Descriptor file(::mkostemps(temporary.data(), 4, O_CLOEXEC));
     if (file.get() < 0) return io_error(diag::kCannotCreate, path, "can't create", errno);
     const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode_for(target)) == 0 && file.close();
@@ -106,20 +124,35 @@ Result<std::vector<std::uint8_t>> read_input(const std::string& path, std::uint6
 
 Status write_output(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (path == "-") return write_in_place(path, STDOUT_FILENO, bytes);
-    const std::string target = resolve_link(path);
-    std::error_code ec;
-    const fs::file_status status = fs::status(target, ec);
-    if (fs::is_directory(status)) return io_error(diag::kCannotCreate, path, "can't create", EISDIR);
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
-        if (device.get() < 0) return io_error(diag::kCannotCreate, path, "can't open", errno);
-        return write_in_place(path, device.get(), bytes);
-    }
-    return write_and_rename(path, target, bytes);
+    const auto target = target_of(path);
+    if (!target) return target.error();
+    if (!target.value().in_place) return write_and_rename(path, target.value().path, bytes);
+    Descriptor device(::open(target.value().path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (device.get() < 0) return io_error(diag::kCannotCreate, path, "can't open", errno);
+    return write_in_place(path, device.get(), bytes);
 }
 
 Status write_output(const std::string& path, const std::string& text) {
     return write_output(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Status check_output(const std::string& path) {
+    if (path == "-") return {};
+    const auto target = target_of(path);
+    if (!target) return target.error();
+    // "folder/." is there only if it is a folder.
+    const std::string needed =
+        target.value().in_place ? target.value().path : (folder_of(target.value().path) / ".").string();
+    if (::access(needed.c_str(), W_OK) != 0) return io_error(diag::kCannotCreate, path, "can't create", errno);
+    return {};
+}
+
+std::string identity(const std::string& path) {
+    if (path == "-") return path;
+    std::error_code ec;
+    // Without a folder that exists, weakly_canonical would leave a relative path as it is.
+    const fs::path resolved = fs::weakly_canonical(fs::absolute(path, ec), ec);
+    return ec ? path : resolved.string();
 }
 
 bool same_file(const std::string& a, const std::string& b) {

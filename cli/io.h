@@ -20,6 +20,13 @@ Result<std::vector<std::uint8_t>> read_input(const std::string& path, std::uint6
 Status write_output(const std::string& path, std::span<const std::uint8_t> bytes);
 Status write_output(const std::string& path, const std::string& text);
 
+/// Whether write_output could make the file, as far as can be told beforehand: the folder is there and open to us, and
+/// no folder is in the file's place. For what takes long before it writes. Error E8011.
+Status check_output(const std::string& path);
+
+/// The same for all names of one file, which needn't exist; "-" for "-".
+std::string identity(const std::string& path);
+
 /// True when both name the same existing file (also through links); false for "-".
 bool same_file(const std::string& a, const std::string& b);
 

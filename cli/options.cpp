@@ -69,6 +69,15 @@ PixelSize resolve_size(const SizeValue& size, double aspect) {
     return {shorter(aspect), size.longer};
 }
 
+CLI::Validator number_range(double least, double most) {
+    return {[least, most](std::string& text) {
+                const auto value = parse_number(text);
+                if (value && *value >= least && *value <= most) return std::string();
+                return fmt::format("'{}' is not a number from {:g} to {:g}", text, least, most);
+            },
+            fmt::format("FLOAT in [{:g} - {:g}]", least, most)};
+}
+
 void add_size_option(CLI::App& app, SizeValue& value, const std::string& help) {
     app.add_option_function<std::string>(
            "--size",

@@ -35,6 +35,9 @@ std::optional<ViewValue> parse_view(const std::string& text);
 /// The longer side is size.longer, the other by aspect = width/height, rounded, at least 1.
 PixelSize resolve_size(const SizeValue& size, double aspect);
 
+/// Takes numbers from least to most; unlike CLI::Range, "nan" isn't one of them.
+CLI::Validator number_range(double least, double most);
+
 /// Adds options to a subcommand; the value must outlive the parsing.
 void add_size_option(CLI::App& app, SizeValue& value, const std::string& help);
 void add_view_option(CLI::App& app, ViewValue& value);

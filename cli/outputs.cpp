@@ -41,13 +41,6 @@ Status check_combination(const std::vector<std::string>& inputs, const std::stri
     return {};
 }
 
-/// One file under two names is one file: compare resolved paths.
-std::string identity(const std::string& path) {
-    std::error_code ec;
-    const fs::path resolved = fs::weakly_canonical(path, ec);
-    return ec ? path : resolved.string();
-}
-
 Status check_collisions(const std::vector<Job>& jobs) {
     std::map<std::string, std::string> owner;
     for (const Job& job : jobs) {

@@ -20,9 +20,9 @@ inline constexpr double kEvaluationError = 64 * kUnitRoundoff;
 /// M, convexly averaged afterwards: less than 16 roundings of M per split.
 inline constexpr double kSplitError = 16 * kUnitRoundoff;
 
-/// Splits after which the intersection filter hands a pair to exact arithmetic: the enclosures of a double root can't be
-/// told apart below the square root of the evaluation error (2^-24). Of 330,000 certified pairs of the corpus and the
-/// pair oracle none needs more than 24.
+/// Splits after which the intersection filter hands a pair to exact arithmetic: the enclosures of a double root can't
+/// be told apart below the square root of the evaluation error (2^-24). Of 330,000 certified pairs of the corpus and
+/// the pair oracle none needs more than 24.
 inline constexpr int kFilterMaxDepth = 28;
 
 /// Part of a bracket: the step after a Newton step this short is about its square, below a rounding. Decides nothing:
@@ -158,8 +158,14 @@ inline constexpr double kParameterStop = 0x1p-52;
 /// Halvings of the stretch of about a pixel in which a picture's class changes: 2^-24 of a pixel.
 inline constexpr int kBoundaryHalvings = 24;
 
-/// Pixels: first step of the search along an edge's normal.
+/// Pixels: first step of the search along an edge's normal, and the largest: where the picture goes over and back
+/// within less, the search may step across.
 inline constexpr double kBoundaryFirstStep = 0x1p-14;
+inline constexpr double kBoundaryLargestStep = 0.25;
+
+/// Pixels: so far the search looks in eight directions. Beyond √2, two neighbouring pixels' diagonal, changes between
+/// sample points show what lies off the normal.
+inline constexpr double kBoundaryStarReach = 1.5;
 
 /// Pixels: what a boundary drawn by lines from change to change is off by where it bends with a radius of a pixel or
 /// more.
@@ -173,5 +179,37 @@ inline constexpr int kJumpHalvings = 8;
 /// Colour channel: a pixel whose centre differs by less from the mean of its corners is taken for linear; so is the run
 /// of the means of its lines.
 inline constexpr double kLinearPixel = 1.0 / 1024;
+
+/// Colour channel, 0…1: colours that differ by less are equal. Four times the 2^-30 of a pixel to which areas of the
+/// exact picture are known (1e-9); k / 255, interpolation, and box means of 2^13 terms err by less than 2^-40. A step
+/// of eight bits is a million times as much.
+inline constexpr double kColorNoise = 0x1p-28;
+
+/// dB: what a difference of kColorNoise everywhere gives, 20·log10(2^28). Above it, pictures are equal.
+inline constexpr double kEqualPsnr = 168.5;
+
+/// dB: right pictures come out between 67 and 90 (measure/README.md); above it, plots say "at most".
+inline constexpr double kBestPsnr = 100;
+
+/// Squared distance of two colours, at most 4: a colour nearer by less than this is as near. Squares and sums err by
+/// 2^-49; with the least contrast that counts (4/255) this is two millionths of the way from one colour to the other.
+inline constexpr double kColorDistanceTie = 0x1p-30;
+
+/// Pixels: an edge this close to a pixel counts as passing through it. Edges are off by 1e-12 of the width, 2^-26 of a
+/// pixel where the width has 2^14. Pixels marked in vain cost time, nothing else.
+inline constexpr double kCrossedSlack = 0x1p-20;
+
+/// Width units: so far right of the canvas's left border the results beside it are asked for, an edge along the border
+/// itself being none. A sixteenth of a lattice step or less, and a thousand times what ends of edges on the border are
+/// off by.
+inline constexpr double kBorderInset = 0x1p-30;
+
+/// Share of a texel, of a bitmap of up to 2^14 texels a side: what eight edges' roundings leave of a result that they
+/// cover and uncover. Forgetting it moves a colour by 2^-22 of a step of eight bits.
+inline constexpr double kShareNoise = 8 * 0x1p14 * kEvaluationError;
+
+/// Part of the side, to which `bench` finds the bitmap of equal error: from size to size, errors of bitmaps go up and
+/// down by about as much (1/√400: of 512² points, a few hundred are on the wrong side).
+inline constexpr double kEqualErrorPrecision = 0.05;
 
 } // namespace fetexc::budget

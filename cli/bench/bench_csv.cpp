@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "compiler/error_budget.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
@@ -27,8 +28,8 @@ struct Column {
 /// Enough to see any change that matters, few enough to be the same from every compiler.
 std::string figure(double v) { return fmt::format("{:.5g}", v); }
 
-/// In 1/255; what double precision makes of equal colours is nothing.
-std::string color(double v) { return v * 255 < 1e-6 ? std::string("0") : figure(v * 255); }
+/// In 1/255.
+std::string color(double v) { return v < budget::kColorNoise ? std::string("0") : figure(v * 255); }
 
 using DistanceFigure = double Distances::*;
 Column distance(const char* name, Distances SizeErrors::*way, DistanceFigure which, bool texels) {

@@ -10,6 +10,7 @@
 #include "cli/bench/bench_plots.h"
 #include "cli/bench/compile_time.h"
 #include "cli/bench/log_scale.h"
+#include "compiler/error_budget.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
@@ -47,18 +48,26 @@ FileGroup two_colored(const std::vector<BenchFile>& files) {
     return group;
 }
 
+/// In any plot of the group: those of single drawings show what applies to them.
+std::vector<std::string> methods_shown(const FileGroup& group) {
+    std::vector<std::string> shown;
+    for (const BenchFile* file : group) {
+        const std::vector<std::string> methods = methods_of({file});
+        shown.insert(shown.end(), methods.begin(), methods.end());
+    }
+    return shown;
+}
+
 std::string drawings(std::size_t count) { return count == 1 ? "one drawing" : fmt::format("{} drawings", count); }
 
 const char* explanation(std::size_t method) {
     constexpr std::array<const char*, kPlotStyles> kTexts = {
         "what fetexc makes: every cell of the texture carries the curves that cross it and one colour for each side, "
-        "so "
-        "edges stay sharp however far one zooms in",
+        "so edges stay sharp however far one zooms in",
         "an ordinary texture: a picture in red, green, blue and opacity, smoothed by the graphics card between its "
         "cells",
         "one channel instead of four: how much of each cell is covered, cut at one half. Only for drawings of two "
-        "plain "
-        "colours",
+        "plain colours",
         "one channel: the distance to the nearest edge, cut at the edge. Sharp edges, round corners. Only for drawings "
         "of two plain colours"};
     return kTexts[method];
@@ -86,16 +95,13 @@ constexpr PlotText kPlots[] = {
     {ErrorAxis::WrongArea, CostAxis::CompileTime, "Error against the time it takes to make the texture",
      "How much of the picture shows a wrong colour, for the processor time that making the texture took; lower is more "
      "accurate, further left is faster, so down and to the left is better. The ordinary textures are made here by "
-     "exact "
-     "integration, for accuracy: programs made for speed take less time than that."},
+     "exact integration, for accuracy: programs made for speed take less time than that."},
     {ErrorAxis::WrongArea, CostAxis::SamplerCost, "Error against the time it takes to look a colour up",
      "How much of the picture shows a wrong colour, for the time that drawing with the texture takes beside an "
-     "ordinary "
-     "one of the same bytes (1 is as fast); lower is more accurate, further left is faster to draw."},
+     "ordinary one of the same bytes (1 is as fast); lower is more accurate, further left is faster to draw."},
     {ErrorAxis::ColorError, CostAxis::Bytes, "Error of the smoothed picture against memory",
      "How far the colours of the drawn pixels are off on average, edges smoothed, for the memory that the texture "
-     "takes; "
-     "lower is more accurate, further left is smaller."}};
+     "takes; lower is more accurate, further left is smaller."}};
 
 std::string plots_of(const FileGroup& group, const BenchPageFacts& facts) {
     std::string out;
@@ -122,7 +128,7 @@ std::string small_plots_of(const FileGroup& group, const char* which) {
     return out + "</div>\n";
 }
 
-std::string psnr_cell(double psnr) { return psnr > 200 ? "equal" : fmt::format("{:.1f}", psnr); }
+std::string psnr_cell(double psnr) { return psnr > budget::kEqualPsnr ? "equal" : fmt::format("{:.1f}", psnr); }
 
 std::string equal_cell(const BenchPoint& p) {
     if (!p.equal_bitmap) return "";
@@ -186,6 +192,10 @@ std::string how_measured(const std::vector<BenchFile>& files, const BenchPageFac
         "half texels. PSNR: peak signal-to-noise ratio of the smoothed picture against the exact one; each 6 dB halve "
         "the error, and about 70 dB is where right pictures can't be told apart. Islands: spots of a colour that the "
         "texture lost, and false ones.</li>\n";
+    out +=
+        fmt::format("<li>As good in wrong area: the smallest ordinary bitmap, of at most 16,384 texels a side, with no "
+                    "more of it; its side is right to {:g}%.</li>\n",
+                    100 * budget::kEqualErrorPrecision);
     if (facts.timed) {
         out +=
             fmt::format("<li>Time to make: processor time of one thread from the SVG file to the texture, median of {} "
@@ -204,7 +214,7 @@ std::string how_measured(const std::vector<BenchFile>& files, const BenchPageFac
 
 std::string section(const FileGroup& group, const std::string& heading, const char* which,
                     const BenchPageFacts& facts) {
-    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_of(group)), plots_of(group, facts),
+    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_shown(group)), plots_of(group, facts),
                        small_plots_of(group, which));
 }
 

@@ -9,13 +9,15 @@
 #include <fmt/format.h>
 
 #include "cli/bench/log_scale.h"
+#include "compiler/error_budget.h"
 #include "compiler/measure/alternatives.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
 namespace {
 
-constexpr double kBestPsnr = 100; ///< dB; more can't be told apart from it
+/// Root mean square error in %.
+double percent_of(double psnr) { return 100 * std::pow(10, -psnr / 20); }
 
 struct ErrorFigure {
     double value = 0;
@@ -25,7 +27,7 @@ struct ErrorFigure {
 ErrorFigure error_of(const BenchPoint& point, ErrorAxis axis) {
     const measure::SizeErrors& e = point.errors.back();
     if (axis == ErrorAxis::ColorError)
-        return {100 * std::pow(10, -std::min(e.psnr, kBestPsnr) / 20), e.psnr > kBestPsnr};
+        return {percent_of(std::min(e.psnr, budget::kBestPsnr)), e.psnr > budget::kBestPsnr};
     if (e.misclassified_ppm > 0) return {e.misclassified_ppm, false};
     return {0.5e6 / (static_cast<double>(e.pixels.width) * e.pixels.height), true};
 }
@@ -149,8 +151,13 @@ Plot mean_plot(const FileGroup& group, ErrorAxis error, CostAxis cost) {
     const auto hollow = [](const PlotLine& line) {
         return std::any_of(line.points.begin(), line.points.end(), [](const PlotPoint& p) { return p.at_most; });
     };
-    if (error == ErrorAxis::WrongArea && std::any_of(plot.lines.begin(), plot.lines.end(), hollow))
-        plot.note = "Hollow marks: in some drawing no sample point at all was wrong; half a point counts there.";
+    if (std::any_of(plot.lines.begin(), plot.lines.end(), hollow))
+        plot.note =
+            error == ErrorAxis::WrongArea
+                ? std::string(
+                      "Hollow marks: in some drawing no sample point at all was wrong; half a point counts there.")
+                : fmt::format("Hollow marks: in some drawing the error is too small to tell; {:g}% counts there.",
+                              percent_of(budget::kBestPsnr));
     return plot;
 }
 

@@ -26,8 +26,8 @@ using FileGroup = std::vector<const BenchFile*>;
 std::vector<std::string> methods_of(const FileGroup& group);
 
 /// One line for each of methods_of, one point for each size: geometric means over the drawings. Where no sample point
-/// was wrong, half a point counts, and the mean says "at most". Without lines when no drawing has such figures (nothing
-/// was timed).
+/// was wrong, half a point counts, where the PSNR is beyond what can be told, that; the mean then says "at most".
+/// Without lines when no drawing has such figures (nothing was timed).
 Plot mean_plot(const FileGroup& group, ErrorAxis error, CostAxis cost);
 
 /// Small plots, one for each drawing, error against bytes; all with the same axes.

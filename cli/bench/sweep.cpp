@@ -9,6 +9,7 @@
 
 #include "cli/bench/compile_time.h"
 #include "cli/io.h"
+#include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
 #include "compiler/measure/sparse_bitmap.h"
 #include "compiler/svg/svg.h"
@@ -19,7 +20,6 @@ namespace {
 using measure::Alternative;
 
 constexpr std::uint32_t kLargestBitmap = 16384; ///< texels on the longer side: what GPUs take
-constexpr double kSidePrecision = 0.05;         ///< of the bitmap of equal error
 
 /// Bitmaps of one drawing, each measured once however many textures ask for their equal.
 class BitmapLadder {
@@ -36,7 +36,7 @@ class BitmapLadder {
 
     Result<measure::EqualErrorBitmap> equal_to(double ppm) {
         const auto good_enough = [&](std::uint32_t side) -> Result<bool> { return error_of(side) <= ppm; };
-        const auto smallest = measure::smallest_side(kLargestBitmap, kSidePrecision, good_enough);
+        const auto smallest = measure::smallest_side(kLargestBitmap, budget::kEqualErrorPrecision, good_enough);
         if (!smallest) return smallest.error();
         const std::uint32_t side = smallest.value().side;
         const GridSize size = grid_for(truth_->scene().extent, side);

@@ -7,6 +7,7 @@
 
 #include "compiler/diagnostics.h"
 #include "compiler/measure/bilinear.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/pictures.h"
 #include "compiler/parallel.h"
 
@@ -14,8 +15,6 @@ namespace fetexc::measure {
 namespace {
 
 constexpr std::uint32_t kMostTexels = 16384; ///< a side
-
-std::uint8_t to_byte(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255)); }
 
 std::vector<ResultId> visible_results(const Truth& truth) {
     std::vector<ResultId> results;

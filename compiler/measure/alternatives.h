@@ -41,8 +41,8 @@ std::string why_not(const Truth& truth, Alternative kind);
 /// a texel's centre has any influence.
 inline constexpr double kDistanceRange = 4;
 
-/// Largest grid of the aspect (height / width) whose texels take at most `bytes`, by its width; 1×1 where nothing fits.
-/// Sides are at most 16384.
+/// Largest grid of the aspect (height / width) whose texels take at most `bytes`, by its width; of width 1 where
+/// nothing fits. Sides are at most 16384.
 GridSize grid_of_bytes(double aspect, std::uint64_t bytes, unsigned bytes_per_texel);
 
 /// A box threshold or a distance field.

@@ -21,4 +21,9 @@ struct TexelWeights {
     double offset = 0; ///< 0: on the first texel's centre
 };
 
+/// The texel that a point lies in.
+inline std::uint32_t nearest_texel(double position, std::uint32_t size) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(position * size), 0.0, size - 1.0));
+}
+
 } // namespace fetexc::measure

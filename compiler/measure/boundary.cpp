@@ -14,6 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNoChange = -1;
 constexpr std::size_t kSamplesPerTask = 64;
+constexpr std::uint32_t kBlockSide = 16; ///< squares
+constexpr int kNearRings = 8;            ///< of squares, before blocks are looked at
 
 /// Place in [0,1] where a predicate that holds at 0 and not at 1 changes.
 template <class Holds> double bisect(const Holds& holds) {
@@ -57,6 +59,32 @@ PictureBoundary::PictureBoundary(const Subject& subject, const SampleGrid& grid)
             if (row + 1 < n.height) down_[k] = change_between(k, k + n.width);
         }
     });
+    find_blocks();
+}
+
+bool PictureBoundary::has_changes(Square s) const {
+    const std::size_t k = grid_.index(s.i, s.j), below = k + grid_.pixels().width;
+    return right_[k] >= 0 || down_[k] >= 0 || right_[below] >= 0 || down_[k + 1] >= 0;
+}
+
+void PictureBoundary::find_blocks() {
+    const GridSize n = grid_.pixels();
+    const double w = 1.0 / n.width, h = subject_.truth.height() / n.height;
+    for (std::uint32_t j0 = 0; j0 + 1 < n.height; j0 += kBlockSide) {
+        for (std::uint32_t i0 = 0; i0 + 1 < n.width; i0 += kBlockSide) {
+            const std::uint32_t i1 = std::min(i0 + kBlockSide, n.width - 1),
+                                j1 = std::min(j0 + kBlockSide, n.height - 1);
+            const std::size_t first = squares_.size();
+            for (std::uint32_t j = j0; j < j1; ++j) {
+                for (std::uint32_t i = i0; i < i1; ++i) {
+                    if (has_changes({i, j})) squares_.push_back({i, j});
+                }
+            }
+            // Sample points of the last squares lie in the pixels after them.
+            if (squares_.size() > first)
+                blocks_.push_back({{i0 * w, j0 * h, (i1 + 1) * w, (j1 + 1) * h}, first, squares_.size()});
+        }
+    }
 }
 
 WidthPoint PictureBoundary::between(std::size_t a, std::size_t b, double t) const {
@@ -74,7 +102,8 @@ class PictureBoundary::Pair {
     [[nodiscard]] bool takes_for_first(WidthPoint p) const {
         const TexturePoint at = subject_.truth.to_texture(p);
         const Rgba color = subject_.picture.at(at);
-        return color_distance(color, first_.at(at)) <= color_distance(color, second_.at(at)) + budget::kColourTie;
+        return color_distance(color, first_.at(at)) <=
+               color_distance(color, second_.at(at)) + budget::kColorDistanceTie;
     }
 
   private:
@@ -151,9 +180,9 @@ Distances PictureBoundary::to_truth() const {
     return summary(std::move(all));
 }
 
-/// Changes on the sides of the square of sample points (i,j) … (i+1,j+1).
-std::size_t PictureBoundary::changes_around(std::uint32_t i, std::uint32_t j, std::array<WidthPoint, 4>& out) const {
-    const std::size_t k = grid_.index(i, j), below = k + grid_.pixels().width;
+/// Changes on the sides of a square.
+std::size_t PictureBoundary::changes_around(Square s, std::array<WidthPoint, 4>& out) const {
+    const std::size_t k = grid_.index(s.i, s.j), below = k + grid_.pixels().width;
     std::size_t count = 0;
     const auto add = [&](std::size_t a, std::size_t b, double t) {
         if (t >= 0) out[count++] = between(a, b, t);
@@ -164,9 +193,9 @@ std::size_t PictureBoundary::changes_around(std::uint32_t i, std::uint32_t j, st
 }
 
 /// Two changes are joined by a line; more meet in their middle.
-double PictureBoundary::distance_in_square(std::uint32_t i, std::uint32_t j, WidthPoint p) const {
+double PictureBoundary::distance_in_square(Square s, WidthPoint p) const {
     std::array<WidthPoint, 4> change;
-    const std::size_t count = changes_around(i, j, change);
+    const std::size_t count = changes_around(s, change);
     if (count == 0) return kInfinity;
     if (count == 2) return distance_to_segment(p, change[0], change[1]);
     WidthPoint middle;
@@ -178,19 +207,31 @@ double PictureBoundary::distance_in_square(std::uint32_t i, std::uint32_t j, Wid
     return best;
 }
 
-/// Rings of squares around the point's own, until no nearer change can follow. Below `best`, else `best`.
+/// Below `best`, else `best`.
+double PictureBoundary::distance_in_blocks(WidthPoint p, double best) const {
+    for (const Block& block : blocks_) {
+        if (block.box.distance(p) >= best) continue;
+        for (std::size_t k = block.first; k < block.end; ++k)
+            best = std::min(best, distance_in_square(squares_[k], p));
+    }
+    return best;
+}
+
+/// Rings of squares around the point's own, until no nearer change can follow; where that takes many (the picture lost
+/// an edge), blocks. Below `best`, else `best`.
 double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
     const GridSize n = grid_.pixels();
     const double height = subject_.truth.height(), pixel = std::min(1.0 / n.width, height / n.height);
-    const auto columns = static_cast<int>(n.width) - 1, rows = static_cast<int>(n.height) - 1;
+    const auto columns = static_cast<int>(n.width) - 1, rows = static_cast<int>(n.height) - 1; // of squares
     const int x = static_cast<int>(p.x * n.width), y = static_cast<int>(p.y / height * n.height);
-    for (int ring = 0; (ring - 2) * pixel < best && ring <= std::max(columns, rows) + 1; ++ring) {
+    for (int ring = 0; (ring - 2) * pixel < best; ++ring) {
+        if (ring > kNearRings) return distance_in_blocks(p, best);
         for (int j = std::max(y - ring, 0); j <= std::min(y + ring, rows - 1); ++j) {
             const int step = j == y - ring || j == y + ring || ring == 0 ? 1 : 2 * ring;
             for (int i = x - ring; i <= x + ring; i += step) {
                 if (i < 0 || i >= columns) continue;
-                best =
-                    std::min(best, distance_in_square(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), p));
+                const Square square{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
+                best = std::min(best, distance_in_square(square, p));
             }
         }
     }
@@ -198,8 +239,8 @@ double PictureBoundary::distance_to_changes(WidthPoint p, double best) const {
 }
 
 /// Outwards in rings until the colour goes over to the edge's other result: on both sides along the normal, and near
-/// the point in six more directions (around a corner the picture may be met there only). Steps that double from far
-/// below a pixel, and never exceed a quarter of one.
+/// the point in six more directions (around a corner the picture may be met there only). Steps double from far below a
+/// pixel to a part of one.
 double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
     const VisibleEdge& e = subject_.truth.edges()[s.edge];
     const WidthPoint p = s.place, normal = s.normal;
@@ -214,16 +255,20 @@ double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
     double from = 0, step = budget::kBoundaryFirstStep * pixel;
     while (from < subject_.reach) {
         const double to = std::min(from + step, subject_.reach);
-        const std::size_t directions = to < 1.5 * pixel ? kStar.size() : 2;
+        const std::size_t directions = to < budget::kBoundaryStarReach * pixel ? kStar.size() : 2;
         double found = kInfinity;
+        bool inside = false;
         for (std::size_t k = 0; k < directions; ++k) {
-            if (!on_canvas(along(k, to)) || pair.takes_for_first(along(k, to))) continue;
+            if (!on_canvas(along(k, to))) continue;
+            inside = true;
+            if (pair.takes_for_first(along(k, to))) continue;
             const double t =
                 bisect([&](double part) { return pair.takes_for_first(along(k, from + part * (to - from))); });
             found = std::min(found, from + t * (to - from));
         }
         if (found < kInfinity) return found;
-        from = to, step = std::min(to, 0.25 * pixel);
+        if (!inside) break; // nor is anything farther out
+        from = to, step = std::min(to, budget::kBoundaryLargestStep * pixel);
     }
     return kInfinity;
 }

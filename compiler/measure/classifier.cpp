@@ -9,15 +9,6 @@
 
 namespace fetexc::measure {
 
-double contrast(const Rgba& a, const Rgba& b) {
-    return std::max({std::fabs(a.r - b.r), std::fabs(a.g - b.g), std::fabs(a.b - b.b), std::fabs(a.a - b.a)});
-}
-
-double color_distance(const Rgba& a, const Rgba& b) {
-    const double dr = a.r - b.r, dg = a.g - b.g, db = a.b - b.b, da = a.a - b.a;
-    return dr * dr + dg * dg + db * db + da * da;
-}
-
 double texel_side(const Truth& truth, const Picture& picture) {
     const GridSize texels = picture.texels();
     return std::max(1.0 / texels.width, truth.height() / texels.height);
@@ -69,7 +60,7 @@ Classifier::Class Classifier::classify(TexturePoint p, ResultId expected, const 
         if (candidate.result == expected) continue;
         const Rgba color = truth_.color(candidate.result, p);
         const double distance = color_distance(sampled, color);
-        if (!(distance < best - budget::kColourTie) || contrast(color, truth) < min_contrast_ ||
+        if (!(distance < best - budget::kColorDistanceTie) || contrast(color, truth) < min_contrast_ ||
             !within_reach(candidate, p))
             continue;
         best = distance, result = candidate.result;

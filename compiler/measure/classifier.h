@@ -4,15 +4,12 @@
 
 #include <vector>
 
+#include "compiler/measure/colors.h"
 #include "compiler/measure/picture.h"
 #include "compiler/measure/truth.h"
 
 namespace fetexc::measure {
 
-/// Largest difference of a channel.
-[[nodiscard]] double contrast(const Rgba& a, const Rgba& b);
-/// Squared, of all four channels.
-[[nodiscard]] double color_distance(const Rgba& a, const Rgba& b);
 /// Larger side of a texel in width units.
 [[nodiscard]] double texel_side(const Truth& truth, const Picture& picture);
 

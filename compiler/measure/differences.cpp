@@ -2,10 +2,9 @@
 #include "compiler/measure/differences.h"
 
 #include <cassert>
-#include <cmath>
-#include <limits>
 
-#include "compiler/measure/classifier.h"
+#include "compiler/error_budget.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/errors.h"
 #include "compiler/measure/pixel_means.h"
 #include "compiler/measure/truth_samples.h"
@@ -14,8 +13,7 @@
 namespace fetexc::measure {
 namespace {
 
-/// A step of eight bits, and what rounding k / 255 in double may add to it.
-constexpr double kOneStep = 1.0 / 255 + 1e-9;
+constexpr double kOneStep = 1.0 / 255 + budget::kColorNoise; ///< of eight bits
 
 struct RowDifference {
     std::uint64_t different = 0;
@@ -46,12 +44,9 @@ std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned th
 double mean_square_error(const std::vector<Rgba>& a, const std::vector<Rgba>& b) {
     assert(a.size() == b.size());
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        const double alpha = a[k].a - b[k].a;
-        for (const double d : {a[k].r - b[k].r, a[k].g - b[k].g, a[k].b - b[k].b})
-            sum += d * d + (d - alpha) * (d - alpha);
-    }
-    return a.empty() ? 0 : sum / (6.0 * static_cast<double>(a.size()));
+    for (std::size_t k = 0; k < a.size(); ++k)
+        sum += square_error(a[k], b[k]);
+    return a.empty() ? 0 : sum / static_cast<double>(a.size());
 }
 
 PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads) {
@@ -76,8 +71,7 @@ PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels
         if (row.max > total.max) total.max = row.max, total.place = row.place;
     }
     total.different_ppm = static_cast<double>(different) * 1e6 / points;
-    const double mse = mean_square_error(box_means(a, pixels, threads), box_means(b, pixels, threads));
-    total.psnr = mse > 0 ? -10 * std::log10(mse) : std::numeric_limits<double>::infinity();
+    total.psnr = decibels(mean_square_error(box_means(a, pixels, threads), box_means(b, pixels, threads)));
     return total;
 }
 

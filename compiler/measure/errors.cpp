@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "compiler/measure/boundary.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/islands.h"
 #include "compiler/measure/pixel_means.h"
 #include "compiler/measure/truth_samples.h"
@@ -17,15 +18,6 @@ namespace fetexc::measure {
 namespace {
 
 constexpr std::size_t kRowsPerTask = 16;
-
-/// Colours are compared over black and over white.
-double squared_error(const Rgba& a, const Rgba& b) {
-    double sum = 0;
-    const double alpha = a.a - b.a;
-    for (const double d : {a.r - b.r, a.g - b.g, a.b - b.b})
-        sum += d * d + (d - alpha) * (d - alpha);
-    return sum;
-}
 
 double psnr_of(const Subject& subject, const TruthSamples& truth, unsigned intervals) {
     const GridSize n = truth.pixels();
@@ -47,13 +39,12 @@ double psnr_of(const Subject& subject, const TruthSamples& truth, unsigned inter
                 Rgba mean = subject.picture.at({(i + 0.5) * w, (j + 0.5) * h});
                 if (truth.crossed(k) || !is_linear({above[i], above[i + 1], below[i], below[i + 1]}, mean))
                     mean = supersampled(subject.picture, {i * w, j * h, w, h}, intervals);
-                rows[row] += squared_error(mean, truth.mean(k));
+                rows[row] += square_error(mean, truth.mean(k));
             }
             above.swap(below);
         }
     });
-    const double mse = std::accumulate(rows.begin(), rows.end(), 0.0) / (6.0 * static_cast<double>(truth.size()));
-    return mse > 0 ? -10 * std::log10(mse) : std::numeric_limits<double>::infinity();
+    return decibels(std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(truth.size()));
 }
 
 void count_misclassified(const SampleGrid& grid, SizeErrors& out) {

@@ -10,19 +10,18 @@
 /// `min_contrast` there. For two solid colours that is the threshold halfway between them.
 /// *Misclassified area.* The share of sample points whose class is not the truth's result.
 /// *Boundary distance.* To the truth: points where the picture's class changes between neighbouring sample points,
-/// found by bisection, to the nearest visible edge. To the picture: points along the visible edges, a pixel apart at
-/// most and weighted by the length they stand for, to the nearest change of the picture between the edge's two results
-/// along the edge's normal, or to the lines that join the changes found between sample points where those are nearer by
-/// more than an eighth of a pixel. Both up to `reach`; edges with less contrast than `min_contrast` are left out and
-/// counted.
-/// *PSNR.* 10·log10(1 / mean square error) of the anti-aliased picture, the box mean over each pixel (of the picture:
-/// supersampled), against the exactly integrated truth; over r, g, b, composited over black and over white.
-/// *Colour error.* Largest difference of a channel (premultiplied RGBA), at sample points farther than a texel from
-/// every visible edge.
-/// *Islands.* Connected sets of sample points (four neighbours) of one class. Lost: one of the truth that the picture
-/// has nowhere: neither at its points nor around them, within a pixel (asked at 32 × 32 places), is its class nearer
-/// than the one that the picture has at the point. False: one of the picture whose result the truth has nowhere, asked
-/// at the same places. Wrong colours farther than `reach` from all edges are colour errors, not islands.
+/// found by bisection, to the nearest visible edge. To the picture: points along the visible edges, about a
+/// pixel apart and weighted by the length they stand for, to the nearest change of the picture between the edge's two
+/// results along the edge's normal, or to the lines that join the changes found between sample points where those are
+/// nearer by more than an eighth of a pixel. Both up to `reach`; edges with less contrast than `min_contrast` are left
+/// out and counted. *PSNR.* 10·log10(1 / mean square error) of the anti-aliased picture, the box mean over each pixel
+/// (of the picture: supersampled), against the exactly integrated truth; over r, g, b, composited over black and over
+/// white. *Colour error.* Largest difference of a channel (premultiplied RGBA), at sample points farther than a texel
+/// from every visible edge. *Islands.* Connected sets of sample points (four neighbours) of one class. Lost: one of the
+/// truth that the picture has nowhere: neither at its points nor around them, within a pixel (asked at 32 × 32 places),
+/// is its class nearer than the one that the picture has at the point. False: one of the picture whose result the truth
+/// has nowhere, asked at the same places. Wrong colours farther than `reach` from all edges are colour errors, not
+/// islands.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compiler/measure/colors.h"
 #include "compiler/measure/visible_edges.h"
 #include "compiler/planar/trapezoid_area.h"
 #include "compiler/scene/lattice.h"
@@ -18,10 +19,6 @@ struct GaussPoint {
 constexpr double kGaussReach = 0.38729833462074170; ///< √15 / 10: three points are exact for degree 5
 constexpr std::array<GaussPoint, 3> kGauss{
     {{0.5 - kGaussReach, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + kGaussReach, 5.0 / 18}}};
-
-void add(Rgba& sum, const Rgba& c, double weight) {
-    sum.r += weight * c.r, sum.g += weight * c.g, sum.b += weight * c.b, sum.a += weight * c.a;
-}
 
 /// Sides and ends of a trapezoid in planar space.
 struct Span {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/measure/pictures.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
+
+#include "compiler/measure/bilinear.h"
+#include "compiler/measure/colors.h"
 
 namespace fetexc::measure {
-namespace {
-
-Rgba mix(const Rgba& a, const Rgba& b, double t) {
-    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
-}
-
-} // namespace
 
 Rgba FbtPicture::at(TexturePoint p) const {
     const fetex::FbtColor c = fetex::fbt_sample(texture_, p.u * texture_.width, p.v * texture_.height);
@@ -29,21 +23,18 @@ BitmapPicture::BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filt
     assert(rgba_.size() == std::size_t{4} * size.width * size.height);
 }
 
-Rgba BitmapPicture::texel(std::int64_t i, std::int64_t j) const {
-    i = std::clamp<std::int64_t>(i, 0, size_.width - 1), j = std::clamp<std::int64_t>(j, 0, size_.height - 1);
-    const std::uint8_t* c =
-        rgba_.data() + 4 * (static_cast<std::size_t>(j) * size_.width + static_cast<std::size_t>(i));
+Rgba BitmapPicture::texel(std::uint32_t i, std::uint32_t j) const {
+    const std::uint8_t* c = rgba_.data() + 4 * (std::size_t{j} * size_.width + i);
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, c[3] / 255.0};
 }
 
 Rgba BitmapPicture::at(TexturePoint p) const {
-    const double shift = filter_ == Filter::Bilinear ? 0.5 : 0;
-    const double x = std::clamp(p.u, 0.0, 1.0) * size_.width - shift,
-                 y = std::clamp(p.v, 0.0, 1.0) * size_.height - shift;
-    const auto i = static_cast<std::int64_t>(std::floor(x)), j = static_cast<std::int64_t>(std::floor(y));
-    if (filter_ == Filter::Nearest) return texel(i, j);
-    const double fx = x - static_cast<double>(i), fy = y - static_cast<double>(j);
-    return mix(mix(texel(i, j), texel(i + 1, j), fx), mix(texel(i, j + 1), texel(i + 1, j + 1), fx), fy);
+    if (filter_ == Filter::Nearest) return texel(nearest_texel(p.u, size_.width), nearest_texel(p.v, size_.height));
+    const TexelWeights x(p.u, size_.width), y(p.v, size_.height);
+    const auto along_row = [&](int j) {
+        return mix(texel(x.index[0], y.index[j]), texel(x.index[1], y.index[j]), x.offset);
+    };
+    return mix(along_row(0), along_row(1), y.offset);
 }
 
 } // namespace fetexc::measure

@@ -35,7 +35,7 @@ class BitmapPicture final : public Picture {
     [[nodiscard]] std::span<const std::uint8_t> rgba() const { return rgba_; }
 
   private:
-    [[nodiscard]] Rgba texel(std::int64_t i, std::int64_t j) const;
+    [[nodiscard]] Rgba texel(std::uint32_t i, std::uint32_t j) const;
     GridSize size_;
     std::vector<std::uint8_t> rgba_;
     Filter filter_;

@@ -4,14 +4,10 @@
 #include <vector>
 
 #include "compiler/error_budget.h"
-#include "compiler/measure/classifier.h"
+#include "compiler/measure/colors.h"
 
 namespace fetexc::measure {
 namespace {
-
-void add(Rgba& sum, const Rgba& c, double weight) {
-    sum.r += weight * c.r, sum.g += weight * c.g, sum.b += weight * c.b, sum.a += weight * c.a;
-}
 
 Rgba middle(const Rgba& a, const Rgba& b) {
     return {(a.r + b.r) / 2, (a.g + b.g) / 2, (a.b + b.b) / 2, (a.a + b.a) / 2};

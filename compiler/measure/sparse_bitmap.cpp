@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/measure/bilinear.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/parallel.h"
 
@@ -12,8 +14,7 @@ namespace fetexc::measure {
 namespace {
 
 constexpr std::uint32_t kBandRows = 32; ///< of texels, worked on together
-constexpr double kBorder = 1e-9;        ///< width units: how far from the left border a row's first result is asked for
-constexpr int kBisections = 60;
+constexpr int kBisections = 60;         ///< down to neighbouring doubles
 
 /// An edge in texels.
 class TexelEdge {
@@ -120,7 +121,7 @@ class Mix {
     }
     /// Forgets what has cancelled out but for rounding.
     void tidy() {
-        std::erase_if(shares_, [](const auto& share) { return std::abs(share.second) < 1e-9; });
+        std::erase_if(shares_, [](const auto& share) { return std::abs(share.second) < budget::kShareNoise; });
     }
     [[nodiscard]] bool is_solid(const Truth& truth) const {
         return std::all_of(shares_.begin(), shares_.end(), [&](const auto& s) { return truth.is_solid(s.first); });
@@ -129,10 +130,8 @@ class Mix {
     [[nodiscard]] ResultId only() const { return shares_.size() == 1 ? shares_.front().first : kNone; }
     [[nodiscard]] Rgba color(const Truth& truth, TexturePoint p) const {
         Rgba sum;
-        for (const auto& [result, share] : shares_) {
-            const Rgba c = truth.color(result, p);
-            sum.r += share * c.r, sum.g += share * c.g, sum.b += share * c.b, sum.a += share * c.a;
-        }
+        for (const auto& [result, share] : shares_)
+            measure::add(sum, truth.color(result, p), share);
         return sum;
     }
 
@@ -144,7 +143,7 @@ std::uint32_t to_rgba8(const Rgba& c) {
     std::uint32_t packed = 0;
     int shift = 0;
     for (const double channel : {c.r, c.g, c.b, c.a}) {
-        packed |= static_cast<std::uint32_t>(std::lround(std::clamp(channel, 0.0, 1.0) * 255)) << shift;
+        packed |= std::uint32_t{to_byte(channel)} << shift;
         shift += 8;
     }
     return packed;
@@ -160,7 +159,7 @@ class Band {
             const VisibleEdge& e = truth.edges()[k];
             add_cells(TexelEdge(e, size.width, 1 / row_height_), e, first_row, last_row, size, cells_);
             for (const WidthPoint end : {e.p[0], e.p[static_cast<std::size_t>(e.degree)]})
-                if (end.x <= kBorder) border_ends_.push_back(end.y);
+                if (end.x <= budget::kBorderInset) border_ends_.push_back(end.y);
         }
         std::sort(border_ends_.begin(), border_ends_.end());
         std::stable_sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) {
@@ -215,7 +214,8 @@ class Band {
         double from = top;
         const auto add_up_to = [&](double y) {
             if (y > from)
-                mix.add(truth_.result_at({kBorder, (from + y) / 2 / truth_.height()}), (y - from) / row_height_);
+                mix.add(truth_.result_at({budget::kBorderInset, (from + y) / 2 / truth_.height()}),
+                        (y - from) / row_height_);
             from = y;
         };
         for (auto end = std::upper_bound(border_ends_.begin(), border_ends_.end(), top);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/measure/classifier.h"
+#include "compiler/error_budget.h"
+#include "compiler/measure/colors.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/measure/exact_picture.h"
 #include "compiler/parallel.h"
@@ -30,11 +31,10 @@ struct PixelRange {
 
 /// Pixels that the stretch between two coordinates meets, rounding included.
 PixelRange range_of(double a, double b, std::uint32_t n) {
-    constexpr double slack = 1e-6;
     const auto index = [&](double v) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(v), 0.0, static_cast<double>(n - 1)));
     };
-    return {index(std::min(a, b) - slack), index(std::max(a, b) + slack)};
+    return {index(std::min(a, b) - budget::kCrossedSlack), index(std::max(a, b) + budget::kCrossedSlack)};
 }
 
 } // namespace
@@ -64,7 +64,7 @@ Result<TruthSamples> TruthSamples::of(const Truth& truth, GridSize pixels, const
     return samples;
 }
 
-/// An edge is monotone: between two of its points it stays in their box. Steps of a pixel at most.
+/// An edge is monotone: between two of its points it stays in their box. Steps of about a pixel.
 void TruthSamples::mark_crossed(const Truth& truth) {
     crossed_.assign(size(), 0);
     const auto to_pixels = [&](WidthPoint p) {

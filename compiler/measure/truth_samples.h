@@ -39,7 +39,7 @@ class TruthSamples {
     [[nodiscard]] ResultId result(std::size_t k) const { return results_[k]; }
     /// Exact mean of the pixel.
     [[nodiscard]] const Rgba& mean(std::size_t k) const { return picture_[k]; }
-    /// Points of the edges with contrast, a pixel apart at most, in the order of the edges.
+    /// Points of the edges with contrast, about a pixel apart, in the order of the edges.
     [[nodiscard]] std::span<const EdgeSample> edge_samples() const { return edge_samples_; }
     [[nodiscard]] std::uint64_t edges_without_contrast() const { return edges_without_contrast_; }
 

@@ -2,7 +2,7 @@
 #include "runtime_glsl/host/shader_source.h"
 
 #include <cassert>
-#include <cstdio>
+#include <charconv>
 #include <cstring>
 
 #include "runtime_glsl/host/embedded_shaders.h"
@@ -24,10 +24,11 @@ std::string define(const char* name, const std::string& value) {
 
 std::string define(const char* name, std::uint32_t value) { return define(name, std::to_string(value)); }
 
+/// With a point whatever the locale; ten digits hold any float.
 std::string real(double value) {
     char text[40];
-    std::snprintf(text, sizeof text, "%.9e", value);
-    return text;
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, 9).ptr;
+    return {text, end};
 }
 
 std::string color(const float (&c)[4]) {

@@ -4,6 +4,7 @@
 /// the order differs or a figure is more than a fifth off (README.md). --quick: one size, fewer samples, no PSNR.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -56,8 +57,11 @@ Scene load(const std::string& name) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
     std::vector<Diagnostic> diagnostics;
     auto scene = load_svg(bytes, {}, diagnostics);
-    if (!scene) std::fprintf(stderr, "%s: %s\n", name.c_str(), scene.error().message.c_str());
-    return scene ? std::move(scene).value() : Scene{};
+    if (!scene) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), scene.error().message.c_str());
+        std::exit(2);
+    }
+    return std::move(scene).value();
 }
 
 Figures figures_of(const Truth& truth, Alternative kind, std::uint64_t bytes, std::uint32_t pixels) {

@@ -73,16 +73,16 @@ template <class Depth> std::vector<CanvasPoint> clipped(const std::vector<Canvas
     return out;
 }
 
-double area_of(const std::vector<CanvasPoint>& polygon) {
+} // namespace
+
+double polygon_area(const std::vector<CanvasPoint>& corners) {
     double twice = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const CanvasPoint a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const CanvasPoint a = corners[i], b = corners[(i + 1) % corners.size()];
         twice += a.x * b.y - b.x * a.y;
     }
     return std::fabs(twice) / 2;
 }
-
-} // namespace
 
 std::vector<CanvasPoint> polygon_of(const HalfPlane& h) {
     std::vector<CanvasPoint> out = clipped({{-0.875, -0.875}, {1.875, -0.875}, {1.875, 1.875}, {-0.875, 1.875}},
@@ -100,7 +100,7 @@ double clipped_area(std::vector<CanvasPoint> polygon, const Rectangle& box) {
     polygon = clipped(polygon, [](CanvasPoint p) { return p.y; });
     polygon = clipped(polygon, [&](CanvasPoint p) { return box.x1 - box.x0 - p.x; });
     polygon = clipped(polygon, [&](CanvasPoint p) { return box.y1 - box.y0 - p.y; });
-    return area_of(polygon);
+    return polygon_area(polygon);
 }
 
 /// ∫ of the chord's part between the box's levels. Between two neighbours of the positions listed, each end of the

@@ -43,6 +43,8 @@ struct Rectangle {
     [[nodiscard]] double area() const { return (x1 - x0) * (y1 - y0); }
 };
 
+/// By the shoelace formula; the polygon doesn't cross itself.
+[[nodiscard]] double polygon_area(const std::vector<CanvasPoint>& corners);
 /// Area of the part of a convex polygon in a rectangle.
 [[nodiscard]] double clipped_area(std::vector<CanvasPoint> polygon, const Rectangle& box);
 /// Area of the part of a disc in a rectangle.

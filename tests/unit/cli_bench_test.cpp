@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "cli/bench/bench_csv.h"
 #include "cli/bench/bench_plots.h"
 #include "cli/bench/compile_time.h"
@@ -149,6 +151,17 @@ TEST(Means, countHalfAPointWhereNoneIsWrong) {
     const Plot plot = mean_plot({&a}, ErrorAxis::WrongArea, CostAxis::Bytes);
     EXPECT_NEAR(plot.lines[0].points[0].y, 50, 1e-9);
     EXPECT_TRUE(plot.lines[0].points[0].at_most);
+}
+
+TEST(Means, countTheBestPsnrWhereErrorsAreTooSmallToTell) {
+    BenchFile a{"a", false, {point_of(kFbtMethod, 8, 100, 1)}};
+    a.points[0].errors[0].psnr = std::numeric_limits<double>::infinity();
+    const Plot plot = mean_plot({&a}, ErrorAxis::ColorError, CostAxis::Bytes);
+    EXPECT_NEAR(plot.lines[0].points[0].y, 0.001, 1e-12);
+    EXPECT_TRUE(plot.lines[0].points[0].at_most);
+    EXPECT_NE(plot.note.find("too small to tell; 0.001%"), std::string::npos) << plot.note;
+    a.points[0].errors[0].psnr = 40;
+    EXPECT_EQ(mean_plot({&a}, ErrorAxis::ColorError, CostAxis::Bytes).note, "");
 }
 
 TEST(Means, leaveOutWhatSomeDrawingLacks) {

@@ -91,5 +91,31 @@ TEST_F(Io, knowsOneFileUnderTwoNames) {
     EXPECT_FALSE(same_file("-", "-"));
 }
 
+TEST_F(Io, checksOutputsWithoutMakingThem) {
+    std::ofstream(path("file")) << "x";
+    for (const std::string& good : {path("new"), path("file"), std::string("-"), std::string("/dev/null")})
+        EXPECT_TRUE(check_output(good).ok()) << good;
+    for (const std::string& bad : {path(""), path("none/new"), path("file/new")}) {
+        const Status status = check_output(bad);
+        ASSERT_FALSE(status.ok()) << bad;
+        EXPECT_EQ(status.error().code, diag::kCannotCreate);
+        EXPECT_EQ(status.error().place, bad);
+    }
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(content("file"), "x");
+}
+
+TEST_F(Io, knowsOneFileByAnyName) {
+    fs::create_directory_symlink(folder_, path("link"));
+    EXPECT_EQ(identity(path("new")), identity(path("link/new")));
+    EXPECT_EQ(identity(path("new")), identity(path("./none/../new")));
+    EXPECT_NE(identity(path("new")), identity(path("other")));
+    const std::string relative = "fetexc-no-such-file";
+    EXPECT_EQ(identity(relative), identity("./" + relative));
+    EXPECT_EQ(identity(relative), identity((fs::current_path() / relative).string()));
+    EXPECT_EQ(identity("-"), "-");
+    EXPECT_NE(identity("./-"), "-");
+}
+
 } // namespace
 } // namespace fetexc::cli

@@ -48,6 +48,19 @@ TEST(View, refusesEverythingElse) {
         EXPECT_FALSE(parse_view(text).has_value()) << text;
 }
 
+TEST(NumberRange, takesItsEndsAndWhatIsBetween) {
+    const CLI::Validator range = number_range(0.5, 1e9);
+    for (const char* text : {"0.5", "1", "1e9", "1e+09", "3.25"})
+        EXPECT_EQ(range(std::string(text)), "") << text;
+}
+
+TEST(NumberRange, refusesEverythingElse) {
+    const CLI::Validator range = number_range(0.5, 1e9);
+    for (const char* text : {"", " ", "0.4", "-1", "1.1e9", "nan", "NaN", "-nan", "inf", "1e999", "1 ", "1x", "one"})
+        EXPECT_NE(range(std::string(text)), "") << text;
+    EXPECT_EQ(range(std::string("nan")), "'nan' is not a number from 0.5 to 1e+09");
+}
+
 TEST(Depfile, escapesAsMakeReadsIt) {
     struct Case {
         const char *name, *written;

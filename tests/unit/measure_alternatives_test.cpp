@@ -8,6 +8,7 @@
 
 #include "compiler/measure/alternatives.h"
 #include "tests/support/drawn_scene.h"
+#include "tests/support/measured.h"
 #include "tests/support/random.h"
 
 namespace fetexc::measure {
@@ -17,18 +18,13 @@ using test::box;
 using test::closed;
 using test::Path;
 using test::scene_of;
+using test::truth_of;
 
 constexpr std::uint32_t kSide = 16; ///< texels, of 32 units each
 constexpr GridSize kGrid{kSide, kSide};
 constexpr double kUnit = 1.0 / 512;
 /// A distance field's byte is at most half a step off, and its slope is one.
 constexpr double kHalfStep = kDistanceRange / 255 / 2; ///< texels
-
-std::unique_ptr<Truth> truth_of(const Scene& scene) {
-    auto truth = Truth::of(scene, 1);
-    EXPECT_TRUE(truth.ok());
-    return std::move(truth).value();
-}
 
 std::unique_ptr<Picture> make(const Truth& truth, Alternative kind, GridSize size = kGrid) {
     auto made = make_alternative(truth, kind, size, 1);

@@ -171,6 +171,29 @@ TEST(Boundary, anEdgeThatIsNotThereIsBeyondReach) {
     EXPECT_NEAR(e.away.max, 1, 0);
 }
 
+/// Off to a side where no normal meets it, some thirty pixels away: what is drawn between sample points tells.
+TEST(Boundary, aShapeThatMovedCornerwiseIsFoundFarAway) {
+    const auto square = [](double at) {
+        return test::closed_polygon({{at, at}, {at + 0.02, at}, {at + 0.02, at + 0.02}, {at, at + 0.02}});
+    };
+    const Scene scene = test::black_on_white({square(0.5)});
+    const auto is_moved = [](TexturePoint p) { return p.u > 0.6 && p.u < 0.62 && p.v > 0.6 && p.v < 0.62; };
+    const SizeErrors e = errors_at(scene, black_where({8, 8}, is_moved), 256);
+    double mean = 0;
+    constexpr int kSteps = 1000;
+    for (int k = 0; k < kSteps; ++k) {
+        const double t = 0.02 * (k + 0.5) / kSteps;
+        for (const CanvasPoint p : {CanvasPoint{0.5, 0.5 + t}, {0.52, 0.5 + t}, {0.5 + t, 0.5}, {0.5 + t, 0.52}})
+            mean += std::hypot(0.6 - p.x, 0.6 - p.y) / (4 * kSteps);
+    }
+    constexpr double kPixel = 1.0 / 256;
+    EXPECT_EQ(e.to_picture.beyond_reach, 0u);
+    EXPECT_NEAR(e.to_picture.mean, mean, kPixel / 2);
+    EXPECT_NEAR(e.to_picture.hausdorff, 0.1 * std::sqrt(2), kPixel);
+    EXPECT_EQ(e.islands.lost, 1u);
+    EXPECT_EQ(e.islands.invented, 1u);
+}
+
 TEST(Boundary, edgesWithoutContrastAreLeftOut) {
     const CanvasContour left = test::closed_polygon({{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}});
     const auto scene = [&](double grey) {

@@ -10,6 +10,7 @@
 #include "compiler/scene/curve_distance.h"
 #include "compiler/scene/ground_truth.h"
 #include "compiler/scene/scene_builder.h"
+#include "tests/support/known_shapes.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/random_shapes.h"
 
@@ -80,15 +81,6 @@ TEST(Winding, fillRulesDifferWhereAPathOverlapsItself) {
     EXPECT_EQ(truth.inside(80 * kUnit, 80 * kUnit), (Shapes{0, 1, 2}));
 }
 
-double shoelace(const std::vector<CanvasPoint>& corners) {
-    double sum = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const CanvasPoint a = corners[i], b = corners[(i + 1) % corners.size()];
-        sum += a.x * b.y - a.y * b.x;
-    }
-    return std::abs(sum) / 2;
-}
-
 TEST(Winding, sampledAreaOfStarShapedPolygonsIsTheShoelaceArea) {
     Random random(2);
     for (int round = 0; round < 8; ++round) {
@@ -103,7 +95,7 @@ TEST(Winding, sampledAreaOfStarShapedPolygonsIsTheShoelaceArea) {
         for (int y = 0; y < 200; ++y)
             for (int x = 0; x < 200; ++x)
                 in += holds(truth, (x + random.unit()) / 2, (y + random.unit()) / 2) ? 1 : 0;
-        EXPECT_NEAR(in / 4.0, shoelace(corners), 12); // jittered grid: σ below 2.5
+        EXPECT_NEAR(in / 4.0, test::polygon_area(corners), 12); // jittered grid: σ below 2.5
     }
 }
 
