@@ -87,7 +87,7 @@ inline constexpr int kPreciseSlack = 18;
 inline constexpr int kPreciseSteps = 64;
 
 /// Coordinates for ordering points that doubles can't tell apart: multiples of 2^-72 steps, from parameters of 192 bits
-/// (error 3·2^44·2^-174 = 2^-128 steps).
+/// (error 3·2^44·5·2^-174 < 2^-125 steps).
 inline constexpr int kFixedBits = 72;
 inline constexpr int kFixedParameterBits = 192;
 

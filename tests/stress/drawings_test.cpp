@@ -110,7 +110,8 @@ std::vector<Segment> lattice_image(const std::string& svg, std::string& error) {
 }
 
 /// The parser below the front end computes in single precision, 1/16 of a unit there, and drops what has no length in
-/// it: consecutive control points have to be four times as far apart, or equal.
+/// it, or no width: consecutive control points have to be four times as far apart, or equal, and so have the sides of
+/// a path's box.
 bool is_coarse(const Drawing& drawing) {
     constexpr std::int64_t apart = kLatticeSteps / 512 / 4;
     const auto near = [](LatticePoint p, LatticePoint q) {
@@ -120,8 +121,12 @@ bool is_coarse(const Drawing& drawing) {
         std::vector<LatticePoint> points;
         for (const auto& curve : path)
             points.insert(points.end(), curve.begin(), curve.end());
-        if (!points.empty()) points.push_back(points.front());
+        if (points.empty()) continue;
+        points.push_back(points.front());
         if (std::adjacent_find(points.begin(), points.end(), near) != points.end()) return false;
+        const auto [left, right] = std::ranges::minmax(points, {}, &LatticePoint::x);
+        const auto [top, bottom] = std::ranges::minmax(points, {}, &LatticePoint::y);
+        if (right.x - left.x < apart || bottom.y - top.y < apart) return false;
     }
     return true;
 }
