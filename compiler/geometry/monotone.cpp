@@ -4,6 +4,8 @@
 
 #include <gmpxx.h>
 
+#include <cmath>
+
 namespace fetexc {
 namespace {
 
@@ -22,10 +24,7 @@ Derivative derivative(const Curve& curve, Axis axis) {
     return {d0 - 2 * d1 + d2, d1 - d0, d0};
 }
 
-int exact_sign(const Derivative& q, double t) {
-    const mpq_class u(t);
-    return sgn(mpq_class((u * static_cast<long>(q.a) + 2 * static_cast<long>(q.b)) * u + static_cast<long>(q.c)));
-}
+int exact_sign(const Derivative& q, double t) { return quadratic_sign(q.a, q.b, q.c, t); }
 
 // Differences of control points are integers below 2^45, so q has integer coefficients a, 2b, c with |a| < 2^47, |b| <
 // 2^46, |c| < 2^45 and, where it has two roots, a discriminant b² − a·c ≥ 1: they are 2·√1/|a| > 2^-46 apart, and a
@@ -90,6 +89,30 @@ void add_extrema(const Curve& c, Axis axis, std::vector<Interval>& out) {
 }
 
 } // namespace
+
+int quadratic_sign(std::int64_t a, std::int64_t b, std::int64_t c, double t) {
+    // t = m·2^-k: the sign of (a·m + 2b·2^k)·m + c·2^2k. The first factor stays below 2^112; the product is taken in
+    // two parts, high·2^64 + low.
+    int exponent = 0;
+    const double fraction = std::frexp(t, &exponent);
+    const int k = 53 - exponent;
+    if (!(t > 0) || k < 32 || k > 63) {
+        const mpq_class u(t);
+        return sgn(mpq_class((u * static_cast<long>(a) + 2 * static_cast<long>(b)) * u + static_cast<long>(c)));
+    }
+    using Unsigned = unsigned __int128;
+    const auto m = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
+    const Int128 factor =
+        static_cast<Int128>(a) * static_cast<Int128>(m) + static_cast<Int128>(2 * b) * (Int128{1} << k);
+    const Unsigned size = factor < 0 ? -static_cast<Unsigned>(factor) : static_cast<Unsigned>(factor);
+    const Unsigned lower = static_cast<Unsigned>(static_cast<std::uint64_t>(size)) * m;
+    const auto high = static_cast<Int128>((size >> 64) * m + (lower >> 64));
+    const bool low = static_cast<std::uint64_t>(lower) != 0;
+    const Int128 rest = static_cast<Int128>(c) * (Int128{1} << (2 * k - 64));
+    const Int128 sum = factor < 0 ? rest - high : rest + high;
+    if (factor < 0) return sum != 0 ? sign_of(sum) : (low ? -1 : 0);
+    return sum < 0 ? -1 : (sum > 0 || low ? 1 : 0);
+}
 
 std::vector<Interval> extrema(const Curve& c, std::uint64_t* near_cusps) {
     std::vector<Interval> all;

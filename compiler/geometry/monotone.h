@@ -16,4 +16,7 @@ namespace fetexc {
 /// apart, |x''| < 2^51).
 std::vector<Interval> extrema(const Curve& c, std::uint64_t* near_cusps = nullptr);
 
+/// Sign of a·t² + 2b·t + c, exact. |a|, |2b|, |c| < 2^48, 0 ≤ t ≤ 1.
+int quadratic_sign(std::int64_t a, std::int64_t b, std::int64_t c, double t);
+
 } // namespace fetexc

@@ -129,6 +129,31 @@ Curve with_extrema(std::int64_t a, std::int64_t b, std::int64_t c) {
     return make_curve(3, {IntPoint{0, 0}, {d0, -1}, {d0 + d1, -1}, {d0 + d1 + d2, 1}});
 }
 
+/// Roots, what lies next to them, and anything, against rationals.
+TEST(QuadraticSign, IsTheRationalOne) {
+    std::array<int, 3> seen{};
+    for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+        Random random(seed);
+        const double size = std::ldexp(1.0, static_cast<int>(random.integer(2, 46)));
+        const auto coefficient = [&] { return static_cast<std::int64_t>((random.unit() * 2 - 1) * size); };
+        double t = random.chance(0.1) ? std::ldexp(random.unit(), -static_cast<int>(random.integer(0, 60)))
+                                      : static_cast<double>(random.integer(0, 64)) / 64;
+        const std::int64_t a = coefficient(), b = coefficient();
+        // The root at t, where it has few bits.
+        const std::int64_t c =
+            random.chance(0.5)
+                ? coefficient()
+                : static_cast<std::int64_t>(-(static_cast<double>(a) * t + 2.0 * static_cast<double>(b)) * t);
+        if (random.chance(0.3)) t = std::nextafter(t, random.chance(0.5) ? 0.0 : 1.0);
+        const mpq_class u(t);
+        const int expected =
+            sgn(mpq_class((u * static_cast<long>(a) + 2 * static_cast<long>(b)) * u + static_cast<long>(c)));
+        ASSERT_EQ(quadratic_sign(a, b, c, t), expected) << "seed " << seed;
+        ++seen[static_cast<std::size_t>(expected + 1)];
+    }
+    EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 200);
+}
+
 TEST(Extrema, NearCuspsAreCounted) {
     const long double r = std::sqrt(2.0L) - 1;
     Random random(11);
