@@ -22,8 +22,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def built(revision):
     """The program of a git revision."""
-    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", f"{revision}^{{commit}}"], check=True,
-                            capture_output=True, text=True).stdout.strip()
+    found = subprocess.run(["git", "-C", ROOT, "rev-parse", "--verify", f"{revision}^{{commit}}"],
+                           capture_output=True, text=True)
+    if found.returncode != 0:
+        sys.exit(f"{revision} is neither a program nor a git revision")
+    commit = found.stdout.strip()
     source, build = (ROOT / "build/revisions" / f"{commit[:12]}-{part}" for part in ("source", "build"))
     program = build / "cli/fetexc"
     if program.exists():
