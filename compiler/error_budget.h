@@ -155,6 +155,18 @@ inline constexpr double kParameterStop = 0x1p-52;
 
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
 
+/// Areas of trapezoids (planar/trapezoid_area), in epsilons of long double: De Casteljau of values up to M errs by less
+/// than so many of M in either coordinate (kEvaluationError, an epsilon being two unit roundoffs).
+inline constexpr int kAreaEvaluationSteps = 32;
+
+/// Widths of the texel over which such errors count beside its height: one of y moves both ends of the integral across
+/// the width (2); one of the derivative is three times as large, over a parameter range of at most 1 (3); room for the
+/// sum.
+inline constexpr int kAreaWidths = 8;
+
+/// Part of a texel's area: rounding the area to double, once more when it is added up, and the bound itself.
+inline constexpr double kAreaRounding = 4 * kUnitRoundoff;
+
 /// Halvings of the stretch of about a pixel in which a picture's class changes: 2^-24 of a pixel.
 inline constexpr int kBoundaryHalvings = 24;
 

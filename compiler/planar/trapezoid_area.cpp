@@ -104,9 +104,7 @@ Real TrapezoidAreas::side_integral(std::uint32_t edge, bool right, Real y0, Real
     return half * sum / 9;
 }
 
-/// De Casteljau of values up to M errs by less than 32 units of M in either coordinate (budget::kEvaluationError with
-/// room). An error of x counts over the height; one of y moves the ends of the integral, across the texel's width at
-/// most; the derivative's (three times as large), over a parameter range of at most 1, times x.
+/// An error of x counts over the height, one of y and of the derivative over widths (budget::kAreaWidths).
 Real TrapezoidAreas::side_error(std::uint32_t edge, Real height) const {
     if (edge == kNone) return 0;
     const Curve& c = curve_of(map_, texel_, edge);
@@ -116,7 +114,8 @@ Real TrapezoidAreas::side_error(std::uint32_t edge, Real height) const {
         for (std::size_t i = 0; i <= static_cast<std::size_t>(c.degree); ++i)
             magnitude = std::max(magnitude, std::fabs(l.v[i]));
     }
-    return 32 * std::numeric_limits<Real>::epsilon() * magnitude * (height + 8 * width_);
+    return budget::kAreaEvaluationSteps * std::numeric_limits<Real>::epsilon() * magnitude *
+           (height + budget::kAreaWidths * width_);
 }
 
 /// A level is a double inside its enclosure, so it errs by the enclosure's width (and one rounding of the subtraction).
@@ -127,7 +126,8 @@ BoundedArea TrapezoidAreas::of(const Trapezoid& t) {
     const Real levels = level_error(t.top_node) + level_error(t.bottom_node) +
                         4 * std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon() * height_;
     const Real error = side_error(t.left, height) + side_error(t.right, height) + 2 * levels * width_;
-    return {static_cast<double>(area), static_cast<double>(error) + 0x1p-51 * static_cast<double>(width_ * height_)};
+    return {static_cast<double>(area),
+            static_cast<double>(error) + budget::kAreaRounding * static_cast<double>(width_ * height_)};
 }
 
 } // namespace fetexc
