@@ -28,6 +28,7 @@ struct CompileCommandOptions {
     std::string representation = "fbt";
     SizeValue size{0, 0, kDefaultTexels};
     SceneOptions scene;
+    std::uint64_t max_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> no_skip;
     bool quiet = false;
@@ -68,14 +69,18 @@ struct Compiled {
 Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& options,
                                   std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
-    const std::uint32_t texels = std::max({options.size.longer, options.size.width, options.size.height});
+    const bool chosen = options.size.automatic || options.max_bytes != 0;
+    const std::uint32_t texels =
+        chosen ? kDefaultTexels : std::max({options.size.longer, options.size.width, options.size.height});
     const SkipRules skip = skip_rules_without(options.no_skip);
     SceneOptions scene_options = options.scene;
     scene_options.cull = skip.layers;
     auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    auto build = compile_fbt(scene, {grid_of(options.size, scene.extent), options.threads, skip}, progress.sink());
+    const CompileOptions compile_options{grid_of(options.size, scene.extent), options.threads, skip};
+    auto build = chosen ? compile_fbt_at_chosen_size(scene, compile_options, options.max_bytes, progress.sink())
+                        : compile_fbt(scene, compile_options, progress.sink());
     if (!build) return build.error();
     const std::vector<Diagnostic>& found = build.value().report.diagnostics;
     diagnostics.insert(diagnostics.end(), found.begin(), found.end());
@@ -88,8 +93,7 @@ CompileOutcome outcome_of(const Job& job, const fetex::FbtTexture& fbt, CompileR
     outcome.output = job.output;
     outcome.width = fbt.width;
     outcome.height = fbt.height;
-    outcome.apron = fbt.apron;
-    outcome.gpu_bytes = 4 * (fbt.texels.size() + fbt.records.size());
+    outcome.gpu_bytes = fetex::fbt_gpu_bytes(fbt);
     outcome.traits = fbt.traits;
     outcome.report = std::move(report);
     return outcome;
@@ -189,7 +193,12 @@ Command add_compile_command(CLI::App& parent) {
     app->add_option("--repr", options->representation, "Representation: fbt (default)")
         ->check(CLI::IsMember({"fbt"}))
         ->type_name("NAME");
-    add_size_option(*app, options->size, "Texels: both sides, or the longer one (default 128)");
+    CLI::Option* size = add_size_or_auto_option(
+        *app, options->size, "Texels: both sides, or the longer one (default 128); auto: as few as cheap lookups need");
+    app->add_option("--max-bytes", options->max_bytes, "The largest size with at most so many bytes on the GPU")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+        ->excludes(size)
+        ->type_name("N");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `fetexc info`: what a .fetex file holds.
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -15,20 +16,82 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::uint32_t kStatsPixels = 500; ///< a side, as FBT Table 3
+
 struct InfoOptions {
     std::string input;
-    bool json = false;
+    bool json = false, stats = false;
 };
 
-/// Texels of the texture proper (without the apron) by what their second word says they are.
+/// Texels by kind: of one region, with one band, with several.
 std::array<std::uint64_t, 3> count_kinds(const fetex::FbtTexture& fbt) {
     std::array<std::uint64_t, 3> counts{};
-    const std::size_t row = fbt.width + fbt.apron;
-    for (std::size_t j = 0; j < fbt.height; ++j) {
-        for (std::size_t i = 0; i < fbt.width; ++i)
-            ++counts[fbt.texels[2 * (j * row + i) + 1] >> 30];
+    for (const std::uint32_t texel : fbt.texels)
+        ++counts[texel >> 30 == fetex::kFbtKindShaded ? fetex::kFbtKindSolid : texel >> 30];
+    return counts;
+}
+
+/// Texels with one region, two, more (FBT Table 2). Bands come from junctions, of three regions at least.
+std::array<std::uint64_t, 3> count_regions(const fetex::FbtTexture& fbt) {
+    std::array<std::uint64_t, 3> counts{};
+    for (const std::uint32_t texel : fbt.texels) {
+        const std::uint32_t kind = texel >> 30;
+        std::size_t more = kind == fetex::kFbtKindBanded ? 2 : 0;
+        if (kind == fetex::kFbtKindSingle) {
+            for (std::uint32_t at = texel & fetex::kFbtAddressMask;;) {
+                const fetex::FbtEntry entry(fbt.records[std::size_t{4} * at]);
+                more += entry.last_run() && entry.pieces() > 0 ? 1 : 0;
+                if (entry.last()) break;
+                at += entry.records();
+            }
+        }
+        ++counts[std::min<std::size_t>(more, 2)];
     }
     return counts;
+}
+
+/// What lookups at the pixel centres of a picture do (FBT Table 3).
+fetex::FbtQueryStats count_queries(const fetex::FbtTexture& fbt) {
+    fetex::FbtQueryStats stats;
+    for (std::uint32_t py = 0; py < kStatsPixels; ++py) {
+        for (std::uint32_t px = 0; px < kStatsPixels; ++px) {
+            const double x = (px + 0.5) / kStatsPixels * fbt.width, y = (py + 0.5) / kStatsPixels * fbt.height;
+            const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
+            fetex::fbt_locate_local(fbt, i, j, x - i, y - j, &stats);
+        }
+    }
+    return stats;
+}
+
+/// Table 1 to 3 of the paper. Its figures count the pixels of a picture; s_avg and f_test are the paper's names.
+Json stats_json(const fetex::FbtTexture& fbt) {
+    const auto regions = count_regions(fbt);
+    const fetex::FbtQueryStats q = count_queries(fbt);
+    const auto texels = static_cast<double>(fbt.texels.size()), queries = static_cast<double>(q.queries);
+    const auto pieces = static_cast<double>(q.pieces), cubics = static_cast<double>(q.solved[3]);
+    return {{"empty", static_cast<double>(regions[0]) / texels},
+            {"twoRegions", static_cast<double>(regions[1]) / texels},
+            {"moreRegions", static_cast<double>(regions[2]) / texels},
+            {"pixels", kStatsPixels},
+            {"bandSteps", static_cast<double>(q.bands) / queries},
+            {"curvesConsidered", pieces / queries},
+            {"hullTests", static_cast<double>(q.pieces - q.outside) / queries},
+            {"linesSolved", static_cast<double>(q.solved[1]) / queries},
+            {"quadraticsSolved", static_cast<double>(q.solved[2]) / queries},
+            {"cubicsSolved", cubics / queries},
+            {"cubicShare", pieces > 0 ? cubics / pieces : 0.0}};
+}
+
+void print_stats(const fetex::FbtTexture& fbt) {
+    const Json s = stats_json(fbt);
+    const auto at = [&](const char* key) { return s[key].get<double>(); };
+    fmt::print("  regions     {:.1f}% of texels with one, {:.1f}% with two, {:.1f}% with more\n", 100 * at("empty"),
+               100 * at("twoRegions"), 100 * at("moreRegions"));
+    fmt::print("  a lookup    {:.4f} curves considered, {:.4f} hull tests, {:.4f} steps over bands\n",
+               at("curvesConsidered"), at("hullTests"), at("bandSteps"));
+    fmt::print("              solved: {:.4f} lines, {:.4f} quadratics, {:.4f} cubics ({:.4f} of the curves)\n",
+               at("linesSolved"), at("quadraticsSolved"), at("cubicsSolved"), at("cubicShare"));
+    fmt::print("              (means over the {0} x {0} pixels of the whole picture)\n", kStatsPixels);
 }
 
 Json traits_json(const fetex::FbtTraits& traits) {
@@ -37,7 +100,9 @@ Json traits_json(const fetex::FbtTraits& traits) {
             {"quadratics", (traits.degrees & 4) != 0},
             {"cubics", (traits.degrees & 8) != 0},
             {"bands", traits.bands},
-            {"interpolated", traits.interpolated},
+            {"corners", traits.corners},
+            {"patches", traits.patches},
+            {"sharedPoints", traits.shared},
             {"translucent", traits.translucent},
             {"directions", traits.directions},
             {"maxEntries", traits.max_entries},
@@ -48,9 +113,9 @@ Json fbt_json(const fetex::FbtTexture& fbt) {
     const auto kinds = count_kinds(fbt);
     return {{"width", fbt.width},
             {"height", fbt.height},
-            {"apron", fbt.apron},
-            {"gpuBytes", 4 * (fbt.texels.size() + fbt.records.size())},
+            {"gpuBytes", fetex::fbt_gpu_bytes(fbt)},
             {"texelBytes", 4 * fbt.texels.size()},
+            {"cornerBytes", 4 * fbt.corners.size()},
             {"recordBytes", 4 * fbt.records.size()},
             {"texels", {{"empty", kinds[0]}, {"single", kinds[1]}, {"banded", kinds[2]}}},
             {"traits", traits_json(fbt.traits)}};
@@ -60,9 +125,9 @@ void print_fbt(const fetex::FbtTexture& fbt) {
     const auto kinds = count_kinds(fbt);
     const double total = static_cast<double>(fbt.width) * fbt.height;
     const auto share = [&](std::uint64_t n) { return 100 * static_cast<double>(n) / total; };
-    const std::size_t texel_bytes = 4 * fbt.texels.size(), record_bytes = 4 * fbt.records.size();
+    const std::size_t texel_bytes = 4 * (fbt.texels.size() + fbt.corners.size()), record_bytes = 4 * fbt.records.size();
     const fetex::FbtTraits& t = fbt.traits;
-    fmt::print("fbt           {} x {} texels{}\n", fbt.width, fbt.height, fbt.apron ? " and an apron of samples" : "");
+    fmt::print("fbt           {} x {} texels\n", fbt.width, fbt.height);
     fmt::print("  on the GPU  {} bytes: {} in texels, {} in curves ({:.1f} bytes a texel)\n",
                texel_bytes + record_bytes, texel_bytes, record_bytes,
                static_cast<double>(texel_bytes + record_bytes) / total);
@@ -71,23 +136,25 @@ void print_fbt(const fetex::FbtTexture& fbt) {
     fmt::print("  curves      {}{}{}{}\n", t.degrees == 0 ? "none" : "", t.degrees & 2 ? "lines " : "",
                t.degrees & 4 ? "quadratics " : "", t.degrees & 8 ? "cubics" : "");
     fmt::print("  sampler     {}, {}, {}; longest list {} entries, most bands {}\n", t.bands ? "bands" : "no bands",
-               t.interpolated ? "interpolated samples" : "constant samples", t.translucent ? "translucent" : "opaque",
+               t.corners || t.patches ? "gradients" : "constant colours", t.translucent ? "translucent" : "opaque",
                t.max_entries, t.max_bands);
 }
 
-void print_text(const std::string& path, const FetexInput& input) {
+void print_text(const std::string& path, const FetexInput& input, bool stats) {
     fmt::print("file          {} ({} bytes)\n", printable(path), input.bytes);
     if (input.file.fbt) print_fbt(*input.file.fbt);
+    if (input.file.fbt && stats) print_stats(*input.file.fbt);
     for (const auto& [key, value] : input.file.metadata)
         fmt::print("{:<13} {}\n", printable(key), printable(value));
 }
 
-void print_json(const std::string& path, const FetexInput& input) {
+void print_json(const std::string& path, const FetexInput& input, bool stats) {
     Json json = {{"schema", "fetexc-info/1"}, {"file", fetex::to_valid_utf8(path)}, {"bytes", input.bytes}};
     json["metadata"] = Json::object();
     for (const auto& [key, value] : input.file.metadata)
         json["metadata"][key] = value;
     if (input.file.fbt) json["fbt"] = fbt_json(*input.file.fbt);
+    if (input.file.fbt && stats) json["fbt"]["stats"] = stats_json(*input.file.fbt);
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -95,9 +162,9 @@ int run_info(const InfoOptions& options) {
     const auto input = load_fetex(options.input);
     if (!input) return report_error(input.error());
     if (options.json) {
-        print_json(options.input, input.value());
+        print_json(options.input, input.value(), options.stats);
     } else {
-        print_text(options.input, input.value());
+        print_text(options.input, input.value(), options.stats);
     }
     return kExitOk;
 }
@@ -110,6 +177,9 @@ Command add_info_command(CLI::App& parent) {
         parent.add_subcommand("info", "Say what a .fetex file holds: size, kinds of texels, traits, metadata");
     app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
     app->add_flag("--json", options->json, "Print JSON (cli/schema/info.schema.json)");
+    app->add_flag(
+        "--stats", options->stats,
+        "Also what lookups cost: regions of texels, curves considered and solved a lookup (Tables 2, 3 of the paper)");
     return {app, [options] { return run_info(*options); }};
 }
 

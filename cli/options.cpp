@@ -78,18 +78,35 @@ CLI::Validator number_range(double least, double most) {
             fmt::format("FLOAT in [{:g} - {:g}]", least, most)};
 }
 
-void add_size_option(CLI::App& app, SizeValue& value, const std::string& help) {
-    app.add_option_function<std::string>(
-           "--size",
-           [&value](const std::string& text) {
-               const auto size = parse_size(text);
-               if (!size)
-                   throw CLI::ValidationError(
-                       "--size", fmt::format("'{}' is neither N nor WxH with sides 1 to {}", text, kMaxSide));
-               value = *size;
-           },
-           help)
-        ->type_name("WxH|N");
+namespace {
+
+CLI::Option* add_size(CLI::App& app, SizeValue& value, const std::string& help, bool takes_auto) {
+    return app
+        .add_option_function<std::string>(
+            "--size",
+            [&value, takes_auto](const std::string& text) {
+                if (takes_auto && text == "auto") {
+                    value = {0, 0, 0, true};
+                    return;
+                }
+                const auto size = parse_size(text);
+                if (!size)
+                    throw CLI::ValidationError("--size", fmt::format("'{}' is neither N nor WxH with sides 1 to {}{}",
+                                                                     text, kMaxSide, takes_auto ? ", nor auto" : ""));
+                value = *size;
+            },
+            help)
+        ->type_name(takes_auto ? "WxH|N|auto" : "WxH|N");
+}
+
+} // namespace
+
+CLI::Option* add_size_option(CLI::App& app, SizeValue& value, const std::string& help) {
+    return add_size(app, value, help, false);
+}
+
+CLI::Option* add_size_or_auto_option(CLI::App& app, SizeValue& value, const std::string& help) {
+    return add_size(app, value, help, true);
 }
 
 void add_view_option(CLI::App& app, ViewValue& value) {

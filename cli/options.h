@@ -16,6 +16,7 @@ namespace fetexc::cli {
 struct SizeValue {
     std::uint32_t width = 0, height = 0; ///< both 0 when longer is set
     std::uint32_t longer = 0;
+    bool automatic = false; ///< "auto", where the option takes it; the others are 0
 };
 struct PixelSize {
     std::uint32_t width = 0, height = 0;
@@ -39,7 +40,9 @@ PixelSize resolve_size(const SizeValue& size, double aspect);
 CLI::Validator number_range(double least, double most);
 
 /// Adds options to a subcommand; the value must outlive the parsing.
-void add_size_option(CLI::App& app, SizeValue& value, const std::string& help);
+CLI::Option* add_size_option(CLI::App& app, SizeValue& value, const std::string& help);
+/// Also takes "auto".
+CLI::Option* add_size_or_auto_option(CLI::App& app, SizeValue& value, const std::string& help);
 void add_view_option(CLI::App& app, ViewValue& value);
 void add_quiet_option(CLI::App& app, bool& quiet);
 

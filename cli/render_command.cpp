@@ -36,7 +36,7 @@ fetex::RenderSize pixels_for(const RenderOptions& options, const fetex::FbtTextu
 /// Draws the ordinary texture that the same bytes buy, to the right of the picture.
 Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, const fetex::FbtTexture& texture,
                                   const fetex::View& view, const fetex::RenderSize& size, const fetex::Image& left) {
-    const std::uint64_t bytes = 4 * (texture.texels.size() + texture.records.size());
+    const std::uint64_t bytes = fetex::fbt_gpu_bytes(texture);
     const auto bitmap = bitmap_of_equal_bytes(texture, bytes);
     if (!bitmap) return bitmap.error();
     const auto right = canvas.draw(bitmap.value(), view, size);

@@ -137,7 +137,6 @@ Json outcome_json(const CompileOutcome& o) {
             {"representation", "fbt"},
             {"width", o.width},
             {"height", o.height},
-            {"apron", o.apron},
             {"fileBytes", o.file_bytes},
             {"gpuBytes", o.gpu_bytes},
             {"milliseconds", o.milliseconds},
@@ -159,7 +158,9 @@ std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
     leave_out((traits.degrees & 4) != 0, "quadratics");
     leave_out((traits.degrees & 8) != 0, "cubics");
     leave_out(traits.bands, "bands");
-    leave_out(traits.interpolated, "interpolation");
+    leave_out(traits.corners, "interpolated corners");
+    leave_out(traits.patches, "patches");
+    leave_out(traits.shared, "shared points");
     leave_out(traits.translucent, "translucency");
     leave_out((traits.directions & 1) != 0, "rays +x");
     leave_out((traits.directions & 2) != 0, "rays -x");
@@ -171,10 +172,9 @@ std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
 std::string report_text(const CompileOutcome& o) {
     const double texels = static_cast<double>(o.width) * o.height;
     std::string text = fmt::format("{} -> {}\n", printable(o.input), printable(o.output));
-    text +=
-        fmt::format("  texture    {} x {} texels{}; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n",
-                    o.width, o.height, o.apron ? " and an apron of samples" : "", o.gpu_bytes,
-                    static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
+    text += fmt::format(
+        "  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n", o.width,
+        o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
     text += scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt);
     text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
     return text;

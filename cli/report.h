@@ -13,7 +13,7 @@ namespace fetexc::cli {
 /// One input compiled.
 struct CompileOutcome {
     std::string input, output;
-    std::uint32_t width = 0, height = 0, apron = 0; ///< texels
+    std::uint32_t width = 0, height = 0; ///< texels
     std::uint64_t file_bytes = 0, gpu_bytes = 0;
     fetex::FbtTraits traits;
     CompileReport report;

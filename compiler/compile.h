@@ -69,4 +69,10 @@ struct FbtBuild {
 /// result).
 Result<FbtBuild> compile_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress = {});
 
+/// The FBT at the size, in texels on the longer side, with the cheapest lookup in at most `max_bytes` on the GPU: the
+/// largest that fits. Without a limit (0) the smallest power of two of which twice as many texels make lookups cheaper
+/// by less than a quarter. options.size is ignored. Errors: those of compile_fbt; kFbtBudget if no size fits.
+Result<FbtBuild> compile_fbt_at_chosen_size(const Scene& scene, const CompileOptions& options, std::uint64_t max_bytes,
+                                            const ProgressSink& progress = {});
+
 } // namespace fetexc

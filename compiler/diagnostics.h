@@ -62,6 +62,7 @@ inline constexpr int kSliversCollapsed = 4101;     ///< parts of the picture, ev
 // Representations (owner: compiler/fbt)
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
 inline constexpr int kFbtTooLarge = 5002;    ///< more records than the format can address
+inline constexpr int kFbtBudget = 5003;      ///< no size fits in --max-bytes
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

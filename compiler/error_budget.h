@@ -179,6 +179,13 @@ inline constexpr double kBoundaryLargestStep = 0.25;
 /// sample points show what lies off the normal.
 inline constexpr double kBoundaryStarReach = 1.5;
 
+/// Colour channel: a patch may be a step of 8 bits off its paint, as much as rounding its corners twice could make it.
+inline constexpr double kPatchTolerance = 1.0 / 255;
+
+/// Part of a region's area: the weight that ties a patch's corner to the mean. It moves a corner that the region's own
+/// points determine by less than a hundredth of the spread.
+inline constexpr double kPatchRidge = 0x1p-10;
+
 /// Pixels: what a boundary drawn by lines from change to change is off by where it bends with a radius of a pixel or
 /// more.
 inline constexpr double kBoundaryChordError = 0.125;

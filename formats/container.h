@@ -12,7 +12,7 @@
 
 namespace fetex {
 
-inline constexpr std::uint16_t kVersionMajor = 1, kVersionMinor = 0;
+inline constexpr std::uint16_t kVersionMajor = 2, kVersionMinor = 0;
 inline constexpr std::size_t kHeaderBytes = 32, kChunkEntryBytes = 32, kChunkAlignment = 16;
 inline constexpr std::uint32_t kMaxChunks = 4096;
 inline constexpr std::uint16_t kChunkCritical = 1; ///< a reader that doesn't know the chunk must refuse the file

@@ -6,31 +6,32 @@
 /// (i,j). Inside a texel, points are local: [0,1)². Quantised points are two u16 in one u32, x in the low half:
 /// v = u·2^-15 − 1/2, so [-1/2, 3/2) with 0 and 1 exact.
 ///
-/// Texels: (width+apron)×(height+apron) × 2 words, row-major.
-///   word 0  representative sample: premultiplied sRGB RGBA8, R in the low byte: colour at the texel's corner (i,j).
-///   word 1  bits 30..31 kind: 0 empty    bits 0..7 availability mask of its only region
-///                             1 single   bits 0..29 record index of the first entry of its only band
-///                             2 banded   bits 0..29 record index of the band directory
-///   The apron (0 or 1, present when any region needs neighbours' samples) is one more column and row of
-///   representative samples; its word 1 is 0.
+/// Texels: width×height words, row-major. Bits 30..31 are the kind:
+///   0 solid    one colour, opaque (bit 24 set, bits 0..23 R, G, B with R in the low byte) or nothing (all 0)
+///   1 single   bits 0..29 record of its entry list
+///   2 banded   bits 0..29 record of its band directory
+///   3 shaded   one region that isn't solid: bits 28..29 its model, bits 0..27 its sample
+/// Corners: none, or (width+1)×(height+1) samples, row-major: the colour at the corner (i,j) of texel (i,j).
 /// Records: 4 words each.
-///   band directory: words n, 0, then for each band k: y_end (u16 quantised, low half), record index of its first
-///     entry; bands are in increasing y; band k covers [y_end(k-1), y_end(k)), the first from 0, the last to 1.
-///     Padded to whole records.
-///   entry: one run of a simple feature, or the terminator.
-///     word 0  record index of the run's first piece record
-///     word 1  bits 0..15 pieces in the run, 16..17 degree (1…3), 18..19 ray direction (0 +x, 1 −x, 2 +y, 3 −y),
-///             bit 20 last run of its feature, bit 21 terminator (no pieces; its region takes what is left)
-///     word 2  sample of the region inside the feature (valid on the last run of the feature): premultiplied RGBA8
-///     word 3  bits 0..7 its availability mask
-///     Entries of a band are consecutive: features in order (FBT §4.5), runs of a feature in sequence, the
-///     terminator last.
-///   pieces: degree 1: a polyline of count+1 points, four points a record, padded; degree 2: one record each, points
-///     0,1,2, pad; degree 3: one record each. Every piece is monotone in x and in y (up to quantisation).
+///   band directory: word n, then n u16 y_end (quantised, two a word, the even one in the low half), then n words, the
+///     bands' entry lists; padded to whole records. Bands are in increasing y; band k covers [y_end(k-1), y_end(k)),
+///     the first from 0, the last to 1.
+///   entry list: entries one after the other, features in order (FBT §4.5), the runs of a feature in sequence.
+///   entry: one run of a simple feature, as many records as it takes.
+///     word 0  bits 0..9 pieces in the run, 10..11 degree (0: no pieces), 12..13 ray direction (0 +x, 1 −x, 2 +y, 3
+///     −y),
+///             14 last run of its feature, 15 last entry of the list, 16..17 model of the region inside the feature,
+///             18..19 model of the rest, 20 points shared
+///     word 1  sample of the region inside (valid on the last run of a feature)
+///     then    the run's degree·pieces+1 points (neighbours share their end points), or, if shared, the index of the
+///             word where they begin
+///     then    in the last entry the sample of the rest: what no feature holds
+///   Every piece is monotone in x and in y (up to quantisation).
 ///
-/// Availability mask (FBT §4.6): 2 bits per corner k (bits 2k, 2k+1), corners 0 (i,j), 1 (i+1,j), 2 (i,j+1),
-/// 3 (i+1,j+1): which sample stands there: 0 the region's own, 1…3 the representative sample of texel (i+1,j),
-/// (i,j+1), (i+1,j+1). Mask 0: constant colour.
+/// Models: how a region is coloured (FBT §4.6), and what its sample is.
+///   0 solid    the sample: premultiplied RGBA8, R in the low byte
+///   1 corners  interpolated between the texel's four corners in Corners; the sample is 0
+///   2 patch    interpolated between four samples of its own, corners (0,0), (1,0), (0,1), (1,1): a record's index
 #pragma once
 
 #include <cstdint>
@@ -39,9 +40,12 @@
 
 namespace fetex {
 
-inline constexpr std::uint32_t kFbtKindEmpty = 0, kFbtKindSingle = 1, kFbtKindBanded = 2;
-inline constexpr std::uint32_t kFbtAddressMask = (1u << 30) - 1;
-inline constexpr std::uint32_t kFbtEntryLastRun = 1u << 20, kFbtEntryTerminator = 1u << 21;
+inline constexpr std::uint32_t kFbtKindSolid = 0, kFbtKindSingle = 1, kFbtKindBanded = 2, kFbtKindShaded = 3;
+inline constexpr std::uint32_t kFbtAddressMask = (1u << 30) - 1, kFbtSampleMask = (1u << 28) - 1;
+inline constexpr std::uint32_t kFbtOpaque = 1u << 24; ///< of a solid texel
+inline constexpr std::uint32_t kFbtModelSolid = 0, kFbtModelCorners = 1, kFbtModelPatch = 2;
+inline constexpr std::uint32_t kFbtMaxPieces = (1u << 10) - 1; ///< in a run
+inline constexpr std::uint32_t kFbtEntryLastRun = 1u << 14, kFbtEntryLast = 1u << 15, kFbtEntryShared = 1u << 20;
 inline constexpr std::uint32_t kFbtRayPosX = 0, kFbtRayNegX = 1, kFbtRayPosY = 2, kFbtRayNegY = 3;
 
 /// What the asset needs from a sampler; the shader prelude leaves the rest out.
@@ -49,7 +53,9 @@ struct FbtTraits {
     std::uint32_t max_degree = 0;  ///< 0: no features at all
     std::uint32_t degrees = 0;     ///< bit d set: some run has degree d
     bool bands = false;            ///< some texel is banded
-    bool interpolated = false;     ///< some availability mask is not 0
+    bool corners = false;          ///< some region has the model corners
+    bool patches = false;          ///< some region has the model patch
+    bool shared = false;           ///< some run's points are shared
     bool translucent = false;      ///< some sample has alpha < 255
     std::uint32_t directions = 0;  ///< bit d set: ray direction d is used
     std::uint32_t max_entries = 0; ///< longest entry list of a band
@@ -59,19 +65,45 @@ struct FbtTraits {
 /// Owning FBT. validate_fbt (formats/validate.h) checks the invariants; a reader calls it before anything is sampled.
 struct FbtTexture {
     std::uint32_t width = 0, height = 0; ///< texels, 1 … 16384
-    std::uint32_t apron = 0;             ///< 0 or 1
     FbtTraits traits;
     std::vector<std::uint32_t> texels;
+    std::vector<std::uint32_t> corners; ///< empty if no region has the model corners
     std::vector<std::uint32_t> records;
 };
 
-/// Where a point fell. record: the entry (last run of the feature, or terminator) whose region holds the point,
-/// or UINT32_MAX in an empty texel.
+inline std::uint64_t fbt_gpu_bytes(const FbtTexture& t) {
+    return 4 * (std::uint64_t{t.texels.size()} + t.corners.size() + t.records.size());
+}
+
+/// Fields of an entry's word 0.
+struct FbtEntry {
+    explicit FbtEntry(std::uint32_t word) : word_(word) {}
+    [[nodiscard]] std::uint32_t pieces() const { return word_ & kFbtMaxPieces; }
+    [[nodiscard]] std::uint32_t degree() const { return word_ >> 10 & 3u; }
+    [[nodiscard]] std::uint32_t direction() const { return word_ >> 12 & 3u; }
+    [[nodiscard]] bool last_run() const { return (word_ & kFbtEntryLastRun) != 0; }
+    [[nodiscard]] bool last() const { return (word_ & kFbtEntryLast) != 0; }
+    [[nodiscard]] bool shared() const { return (word_ & kFbtEntryShared) != 0; }
+    [[nodiscard]] std::uint32_t model() const { return word_ >> 16 & 3u; }
+    [[nodiscard]] std::uint32_t rest_model() const { return word_ >> 18 & 3u; }
+    [[nodiscard]] std::uint32_t points() const { return pieces() * degree() + 1; }
+    /// Words before the sample of the rest.
+    [[nodiscard]] std::uint32_t rest_word() const { return shared() ? 3 : 2 + points(); }
+    /// Records that the entry takes.
+    [[nodiscard]] std::uint32_t records() const { return (rest_word() + (last() ? 1 : 0) + 3) / 4; }
+
+  private:
+    std::uint32_t word_;
+};
+
+/// Where a point fell. record: the entry that decided, UINT32_MAX in a texel without features; rest: no feature held
+/// the point.
 struct FbtRegion {
     std::uint32_t i = 0, j = 0;
     std::uint32_t record = 0xffffffffu;
-    std::uint32_t sample = 0; ///< RGBA8
-    std::uint32_t mask = 0;
+    bool rest = false;
+    std::uint32_t model = 0;
+    std::uint32_t sample = 0;
 };
 
 /// Reference sampler, in double. (x,y) in texel space, clamped to the texture. FBT §5, step 3.
@@ -90,7 +122,7 @@ FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint3
 struct FbtQueryStats {
     std::uint64_t queries = 0;
     std::uint64_t bands = 0;      ///< steps of binary searches over bands (c_lookup)
-    std::uint64_t entries = 0;    ///< runs and terminators read
+    std::uint64_t entries = 0;    ///< runs read
     std::uint64_t pieces = 0;     ///< curves considered
     std::uint64_t outside = 0;    ///< decided by the half-open interval of the end points: not crossed
     std::uint64_t box = 0;        ///< decided by the bounding box of the control points (c_hull)
@@ -111,11 +143,11 @@ std::uint32_t fbt_pack_point(double x, double y);
 /// Inverse of fbt_quantise, exact in float and double.
 inline double fbt_dequantise(std::uint32_t u16) { return static_cast<double>(u16) * 0x1p-15 - 0.5; }
 
-/// Records that `count` pieces of a degree take: polylines hold four points a record, curves take one record each.
-inline std::uint64_t fbt_piece_records(std::uint32_t degree, std::uint64_t count) {
-    return degree == 1 ? (count + 4) / 4 : count;
+/// Quantised y_end of a band; words: the directory.
+inline std::uint32_t fbt_band_end(const std::uint32_t* words, std::uint32_t band) {
+    return words[1 + band / 2] >> (16 * (band & 1u)) & 0xffffu;
 }
-/// Records of a band directory of n bands: 2 + 2n words.
-inline std::uint64_t fbt_directory_records(std::uint64_t n) { return (n + 2) / 2; }
+/// Records that a directory of n bands takes.
+inline std::uint64_t fbt_directory_records(std::uint64_t n) { return (1 + (n + 1) / 2 + n + 3) / 4; }
 
 } // namespace fetex

@@ -106,51 +106,54 @@ bool crosses(const std::uint32_t* words, std::uint32_t degree, const Ray& ray, F
     return (crossing_x(Piece(words, degree, ray), ray.p.y) > ray.p.x) != ray.negative;
 }
 
-/// Whether an odd number of the run's pieces is crossed.
-bool run_parity(const FbtTexture& texture, const std::uint32_t* entry, double fx, double fy, FbtQueryStats& stats) {
-    const std::uint32_t count = entry[1] & 0xffffu, degree = entry[1] >> 16 & 3u;
-    const Ray ray(fx, fy, entry[1] >> 18 & 3u);
-    const std::uint32_t* words = texture.records.data() + std::size_t{entry[0]} * 4;
-    // Consecutive pieces of a polyline share a point; curves take a whole record each.
-    const std::size_t stride = degree == 1 ? 1 : 4;
+/// Whether an odd number of the run's pieces is crossed. Neighbouring pieces share a point.
+bool run_parity(const FbtTexture& texture, const std::uint32_t* words, double fx, double fy, FbtQueryStats& stats) {
+    const FbtEntry entry(words[0]);
+    const Ray ray(fx, fy, entry.direction());
+    const std::uint32_t* points = entry.shared() ? texture.records.data() + words[2] : words + 2;
     bool odd = false;
-    for (std::uint32_t k = 0; k < count; ++k, words += stride)
-        odd ^= crosses(words, degree, ray, stats);
+    for (std::uint32_t k = 0; k < entry.pieces(); ++k)
+        odd ^= crosses(points + std::size_t{k} * entry.degree(), entry.degree(), ray, stats);
     return odd;
 }
 
-/// Record index of the first entry of the band that holds fy (FBT §5, step 3).
+/// Record index of the entry list of the band that holds fy (FBT §5, step 3).
 std::uint32_t find_band(const FbtTexture& texture, std::uint32_t directory, double fy, FbtQueryStats& stats) {
     const std::uint32_t* words = texture.records.data() + std::size_t{directory} * 4;
-    std::uint32_t low = 0, high = words[0] - 1; // the answer is in [low, high]
+    const std::uint32_t bands = words[0];
+    std::uint32_t low = 0, high = bands - 1; // the answer is in [low, high]
     while (low < high) {
         ++stats.bands;
         const std::uint32_t middle = (low + high) / 2;
-        if (fy < fbt_dequantise(words[2 + 2 * middle])) {
+        if (fy < fbt_dequantise(fbt_band_end(words, middle))) {
             high = middle;
         } else {
             low = middle + 1;
         }
     }
-    return words[3 + 2 * low];
+    return words[1 + (bands + 1) / 2 + low];
 }
 
-/// First feature, in order, whose parity is odd; else the terminator (FBT §4.5).
-std::uint32_t find_entry(const FbtTexture& texture, std::uint32_t record, double fx, double fy, FbtQueryStats& stats) {
+/// First feature, in order, whose parity is odd; else what is left (FBT §4.5).
+void find_region(FbtRegion& region, const FbtTexture& texture, std::uint32_t record, double fx, double fy,
+                 FbtQueryStats& stats) {
     bool odd = false;
-    for (;; ++record) {
-        const std::uint32_t* entry = texture.records.data() + std::size_t{record} * 4;
+    for (;;) {
+        const std::uint32_t* words = texture.records.data() + std::size_t{record} * 4;
+        const FbtEntry entry(words[0]);
         ++stats.entries;
-        if (entry[1] & kFbtEntryTerminator) return record;
-        odd ^= run_parity(texture, entry, fx, fy, stats);
-        if ((entry[1] & kFbtEntryLastRun) == 0) continue;
-        if (odd) return record;
-        odd = false;
+        odd ^= run_parity(texture, words, fx, fy, stats);
+        const bool found = odd && entry.last_run();
+        if (found || entry.last()) {
+            region.record = record;
+            region.rest = !found;
+            region.model = found ? entry.model() : entry.rest_model();
+            region.sample = found ? words[1] : words[entry.rest_word()];
+            return;
+        }
+        if (entry.last_run()) odd = false;
+        record += entry.records();
     }
-}
-
-const std::uint32_t* texel_words(const FbtTexture& texture, std::uint32_t i, std::uint32_t j) {
-    return texture.texels.data() + (std::size_t{j} * (texture.width + texture.apron) + i) * 2;
 }
 
 double clamp_coordinate(double v, std::uint32_t size) {
@@ -169,27 +172,33 @@ FbtRegion fbt_locate_local(const FbtTexture& texture, std::uint32_t i, std::uint
     FbtRegion region;
     region.i = std::min(i, texture.width - 1);
     region.j = std::min(j, texture.height - 1);
-    const std::uint32_t* texel = texel_words(texture, region.i, region.j);
-    const std::uint32_t kind = texel[1] >> 30;
-    if (kind == kFbtKindEmpty) {
-        region.sample = texel[0];
-        region.mask = texel[1] & 0xffu;
-        return region;
+    const std::uint32_t texel = texture.texels[std::size_t{region.j} * texture.width + region.i];
+    const std::uint32_t address = texel & kFbtAddressMask;
+    switch (texel >> 30) {
+    case kFbtKindSolid:
+        region.sample = (texel & kFbtOpaque) != 0 ? texel | 0xff000000u : 0;
+        break;
+    case kFbtKindShaded:
+        region.model = texel >> 28 & 3u;
+        region.sample = texel & kFbtSampleMask;
+        break;
+    case kFbtKindSingle:
+        find_region(region, texture, address, fx, fy, counts);
+        break;
+    default:
+        find_region(region, texture, find_band(texture, address, fy, counts), fx, fy, counts);
     }
-    std::uint32_t first = texel[1] & kFbtAddressMask;
-    if (kind == kFbtKindBanded) first = find_band(texture, first, fy, counts);
-    region.record = find_entry(texture, first, fx, fy, counts);
-    region.sample = texture.records[std::size_t{region.record} * 4 + 2];
-    region.mask = texture.records[std::size_t{region.record} * 4 + 3] & 0xffu;
     return region;
 }
 
 FbtColor fbt_shade(const FbtTexture& texture, const FbtRegion& region, double fx, double fy) {
     std::array<double, 4> sum{};
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
-        const std::uint32_t code = region.mask >> (2 * corner) & 3u;
+        const std::uint32_t i = region.i + (corner & 1u), j = region.j + (corner >> 1);
         const std::uint32_t sample =
-            code == 0 ? region.sample : *texel_words(texture, region.i + (code & 1u), region.j + (code >> 1));
+            region.model == kFbtModelPatch     ? texture.records[std::size_t{region.sample} * 4 + corner]
+            : region.model == kFbtModelCorners ? texture.corners[std::size_t{j} * (texture.width + 1) + i]
+                                               : region.sample;
         const double weight = ((corner & 1u) ? fx : 1 - fx) * ((corner & 2u) ? fy : 1 - fy);
         for (std::size_t channel = 0; channel < 4; ++channel)
             sum[channel] += weight * static_cast<double>(sample >> (8 * channel) & 0xffu);

@@ -13,9 +13,10 @@ namespace fetex {
 namespace {
 
 constexpr FourCc kMeta = fourcc("META"), kFbtHeader = fourcc("FBTH"), kFbtTexels = fourcc("FBTT"),
-                 kFbtRecords = fourcc("FBTR");
+                 kFbtCorners = fourcc("FBTC"), kFbtRecords = fourcc("FBTR");
 constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
-constexpr std::uint32_t kFlagBands = 1, kFlagInterpolated = 2, kFlagTranslucent = 4, kFlagsKnown = 7;
+constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, kFlagPatches = 8, kFlagShared = 16,
+                        kFlagsKnown = 31;
 
 using Words = std::vector<std::uint32_t>;
 
@@ -115,12 +116,12 @@ std::optional<Finding> read_metadata(Metadata& out, const ChunkView& chunk) {
 Words fbt_header_words(const FbtTexture& t) {
     Words words = {t.width,
                    t.height,
-                   t.apron,
                    0, // sample format: RGBA8, premultiplied, sRGB-encoded
                    t.traits.max_degree,
                    t.traits.degrees,
-                   (t.traits.bands ? kFlagBands : 0) | (t.traits.interpolated ? kFlagInterpolated : 0) |
-                       (t.traits.translucent ? kFlagTranslucent : 0),
+                   (t.traits.bands ? kFlagBands : 0) | (t.traits.corners ? kFlagCorners : 0) |
+                       (t.traits.translucent ? kFlagTranslucent : 0) | (t.traits.patches ? kFlagPatches : 0) |
+                       (t.traits.shared ? kFlagShared : 0),
                    t.traits.directions,
                    t.traits.max_entries,
                    t.traits.max_bands,
@@ -145,13 +146,15 @@ void append_fbt_chunks(std::vector<ChunkView>& chunks, const FbtTexture& texture
     };
     append(kFbtHeader, payloads.emplace_back(to_bytes(fbt_header_words(texture))));
     append(kFbtTexels, as_bytes(texture.texels, payloads));
+    if (texture.traits.corners) append(kFbtCorners, as_bytes(texture.corners, payloads));
     append(kFbtRecords, as_bytes(texture.records, payloads));
 }
 
-/// The three chunks of one FBT.
+/// The chunks of one FBT.
 struct FbtChunks {
     const ChunkView* header = nullptr;
     const ChunkView* texels = nullptr;
+    const ChunkView* corners = nullptr;
     const ChunkView* records = nullptr;
 };
 
@@ -164,21 +167,22 @@ std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, 
     const Words w = to_words(chunk.payload);
     out.width = w[0];
     out.height = w[1];
-    out.apron = w[2];
-    if (out.width < 1 || out.width > kFbtMaxSide || out.height < 1 || out.height > kFbtMaxSide || out.apron > 1)
-        return bad(0, "width or height outside 1 … 16384, or apron beyond 1");
-    if (w[3] != 0) return bad(3, "unknown sample format");
-    if ((w[6] & ~kFlagsKnown) != 0) return bad(6, "unknown flags");
-    out.traits.max_degree = w[4];
-    out.traits.degrees = w[5];
-    out.traits.bands = (w[6] & kFlagBands) != 0;
-    out.traits.interpolated = (w[6] & kFlagInterpolated) != 0;
-    out.traits.translucent = (w[6] & kFlagTranslucent) != 0;
-    out.traits.directions = w[7];
-    out.traits.max_entries = w[8];
-    out.traits.max_bands = w[9];
-    records = w[10];
-    for (std::size_t k = 11; k < kFbtHeaderWords; ++k)
+    if (out.width < 1 || out.width > kFbtMaxSide || out.height < 1 || out.height > kFbtMaxSide)
+        return bad(0, "width or height outside 1 … 16384");
+    if (w[2] != 0) return bad(2, "unknown sample format");
+    if ((w[5] & ~kFlagsKnown) != 0) return bad(5, "unknown flags");
+    out.traits.max_degree = w[3];
+    out.traits.degrees = w[4];
+    out.traits.bands = (w[5] & kFlagBands) != 0;
+    out.traits.corners = (w[5] & kFlagCorners) != 0;
+    out.traits.patches = (w[5] & kFlagPatches) != 0;
+    out.traits.shared = (w[5] & kFlagShared) != 0;
+    out.traits.translucent = (w[5] & kFlagTranslucent) != 0;
+    out.traits.directions = w[6];
+    out.traits.max_entries = w[7];
+    out.traits.max_bands = w[8];
+    records = w[9];
+    for (std::size_t k = 10; k < kFbtHeaderWords; ++k)
         if (w[k] != 0) return bad(k, "reserved words aren't 0");
     return std::nullopt;
 }
@@ -186,12 +190,20 @@ std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, 
 std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
     std::uint32_t records = 0;
     if (auto bad = read_fbt_header(out, records, *chunks.header)) return bad;
-    const std::uint64_t texels = std::uint64_t{out.width + out.apron} * (out.height + out.apron);
-    if (chunks.texels->payload.size() != texels * 8)
+    const auto wrong_length = [](const ChunkView& chunk, std::uint64_t words) {
+        return chunk.payload.size() != words * 4;
+    };
+    if (wrong_length(*chunks.texels, std::uint64_t{out.width} * out.height))
         return Finding{FindingCode::FbtSizeMismatch, chunks.texels->offset, "FBTT: wrong length for the dimensions"};
-    if (chunks.records->payload.size() != std::uint64_t{records} * 16)
+    if ((chunks.corners != nullptr) != out.traits.corners)
+        return Finding{FindingCode::MissingChunk, chunks.header->offset,
+                       "FBTC is there, and not needed, or the other way round"};
+    if (chunks.corners && wrong_length(*chunks.corners, (std::uint64_t{out.width} + 1) * (out.height + 1)))
+        return Finding{FindingCode::FbtSizeMismatch, chunks.corners->offset, "FBTC: wrong length for the dimensions"};
+    if (wrong_length(*chunks.records, std::uint64_t{records} * 4))
         return Finding{FindingCode::FbtSizeMismatch, chunks.records->offset, "FBTR: wrong length for the record count"};
     out.texels = to_words(chunks.texels->payload);
+    if (chunks.corners) out.corners = to_words(chunks.corners->payload);
     out.records = to_words(chunks.records->payload);
     return std::nullopt;
 }
@@ -199,9 +211,12 @@ std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
 /// validate_fbt counts offsets within a part; this moves them to the file.
 void to_file_offsets(std::vector<Finding>& findings, const FbtChunks& chunks) {
     for (Finding& finding : findings) {
-        const bool in_texels = finding.message.starts_with("texels"),
-                   in_records = finding.message.starts_with("records");
-        finding.offset += (in_texels ? chunks.texels : in_records ? chunks.records : chunks.header)->offset;
+        const auto in = [&](const char* part) { return finding.message.starts_with(part); };
+        finding.offset += (in("texels")    ? chunks.texels
+                           : in("corners") ? chunks.corners
+                           : in("records") ? chunks.records
+                                           : chunks.header)
+                              ->offset;
     }
 }
 
@@ -224,14 +239,16 @@ class Reader {
   private:
     /// Level 0 of the known chunks; the FBT of the lowest representation number is the one that is read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
-        const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtRecords;
+        const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
+                         chunk.type == kFbtRecords;
         if (chunk.type == kMeta && chunk.representation == kWholeFile && chunk.level == 0) {
             metadata_ = &chunk;
         } else if (fbt && chunk.representation != kWholeFile && chunk.level == 0) {
             FbtChunks& group = fbts_[chunk.representation];
-            (chunk.type == kFbtHeader   ? group.header
-             : chunk.type == kFbtTexels ? group.texels
-                                        : group.records) = &chunk;
+            (chunk.type == kFbtHeader    ? group.header
+             : chunk.type == kFbtTexels  ? group.texels
+             : chunk.type == kFbtCorners ? group.corners
+                                         : group.records) = &chunk;
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};

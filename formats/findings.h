@@ -31,25 +31,24 @@ enum class FindingCode : std::uint16_t {
     BadFbtHeader = 204,    ///< FBTH: length, reserved words, flags
     FbtSizeMismatch = 205, ///< FBTT or FBTR has not the length that FBTH asks for
 
-    FbtDimensions = 1001,        ///< width, height 1 … 16384; apron 0 or 1; lengths of the arrays
-    FbtTexelKind = 1002,         ///< kind 3
-    FbtReservedBits = 1003,      ///< reserved bits of a texel, directory or entry
-    FbtAddress = 1004,           ///< address beyond the records
+    FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
+    FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque
+    FbtAddress = 1004,           ///< address of a list, a directory or a patch beyond the records
     FbtBandCount = 1005,         ///< directory without bands or beyond the records
     FbtBandOrder = 1006,         ///< y_end not increasing within (0,1], or the last isn't 1
-    FbtNoTerminator = 1007,      ///< entry list runs off the records
+    FbtNoLastEntry = 1007,       ///< entry list runs off the records
     FbtTooManyEntries = 1008,    ///< entry list longer than kFbtMaxEntries
-    FbtEmptyRun = 1009,          ///< run without pieces
-    FbtDegree = 1010,            ///< degree 0
-    FbtPieceAddress = 1011,      ///< pieces beyond the records
-    FbtUnfinishedFeature = 1012, ///< terminator follows a run that isn't the last of its feature
-    FbtTerminator = 1013,        ///< terminator with pieces or other bits
-    FbtStraySample = 1014,       ///< sample or mask on a run that isn't the last of its feature
-    FbtMask = 1015,              ///< mask asks for a texel that isn't there: the apron is missing
-    FbtPadding = 1016,           ///< padding of pieces or directory isn't 0
-    FbtNotMonotone = 1017,       ///< piece turns back in x or y by more than kFbtMonotoneSlack steps
-    FbtNotPremultiplied = 1018,  ///< a colour channel exceeds alpha
-    FbtTraitsMismatch = 1019,    ///< traits don't describe the texture
+    FbtEmptyRun = 1009,          ///< an entry without pieces that is more than a lone rest
+    FbtDegree = 1010,            ///< pieces without a degree, or a degree without pieces
+    FbtPieceAddress = 1011,      ///< points beyond the records
+    FbtUnfinishedFeature = 1012, ///< the last entry isn't the last run of its feature
+    FbtStraySample = 1014, ///< a sample on a run that isn't the last of its feature, or a rest before the last entry
+    FbtCorners = 1015,     ///< the model corners in a texture that has none
+    FbtPadding = 1016,     ///< padding of an entry or directory isn't 0
+    FbtNotMonotone = 1017, ///< piece turns back in x or y by more than kFbtMonotoneSlack steps
+    FbtNotPremultiplied = 1018, ///< a colour channel exceeds alpha
+    FbtTraitsMismatch = 1019,   ///< traits don't describe the texture
+    FbtModel = 1020,            ///< unknown model, or a shaded texel that is solid
 };
 
 /// One finding. offset: bytes from the start of the file, or, from validate_fbt, of the part the message names.

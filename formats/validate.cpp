@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Each record is looked at once in each role (entry, quadratic, cubic), however often hostile data points at it.
+/// Each word is looked at once in each role (entry, quadratic, cubic, patch), however often hostile data points at it.
 #include "formats/validate.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
+#include <unordered_set>
 
 namespace fetex {
 namespace {
 
-constexpr std::uint32_t kMaskNeedsRight = 0x55, kMaskNeedsBelow = 0xaa; ///< codes 1 and 3; codes 2 and 3
-constexpr std::uint32_t kEntryBits = 0x003fffffu;
+constexpr std::uint32_t kEntryBits = (1u << 21) - 1;
 constexpr std::uint32_t kQuantisedZero = 0x4000, kQuantisedOne = 0xc000;
 
 /// How far, in steps, a coordinate of a quadratic or cubic with these quantised control values moves against its
@@ -43,25 +42,30 @@ double backtrack(const std::array<double, 4>& c, std::uint32_t degree) {
     return 0.5 * (variation - std::abs(end - c[0]));
 }
 
-/// The next index not visited yet, in nearly constant time (union-find over visited neighbours).
+/// Pieces of one degree, by the word where they begin: each is visited once, and the next of a run that wasn't is found
+/// in nearly constant time (union-find over the visited ones; pieces of a run are `degree` words apart).
 class VisitOnce {
   public:
-    explicit VisitOnce(std::size_t size) : next_(size + 1) { std::iota(next_.begin(), next_.end(), 0u); }
-    std::uint32_t first_unvisited(std::uint32_t k) {
+    VisitOnce() = default;
+    VisitOnce(std::size_t words, std::uint32_t degree) : degree_(degree), column_(words / degree + 2) {
+        next_.resize(column_ * degree);
+        std::iota(next_.begin(), next_.end(), std::size_t{0});
+    }
+    /// The first word ≥ `word`, a multiple of the degree further on, that wasn't visited.
+    std::size_t first_unvisited(std::size_t word) {
+        std::size_t k = word % degree_ * column_ + word / degree_;
         while (next_[k] != k)
             k = next_[k] = next_[next_[k]];
-        return k;
+        return k % column_ * degree_ + k / column_;
     }
-    void visit(std::uint32_t k) { next_[k] = k + 1; }
+    void visit(std::size_t word) {
+        const std::size_t k = word % degree_ * column_ + word / degree_;
+        next_[k] = k + 1;
+    }
 
   private:
-    std::vector<std::uint32_t> next_;
-};
-
-/// What a list of entries, or all lists of a directory, ask for.
-struct Needs {
-    bool valid = false;
-    std::uint32_t masks = 0; ///< union of the availability masks
+    std::size_t degree_ = 1, column_ = 0;
+    std::vector<std::size_t> next_; ///< columns of words that are the same modulo the degree, one spare place in each
 };
 
 class Checker {
@@ -70,6 +74,7 @@ class Checker {
     Checker(const FbtTexture& texture, std::size_t limit) : texture_(texture), limit_(limit) {}
 
     bool check_sizes();
+    void check_corners();
     void check_texels();
     void check_traits();
     [[nodiscard]] const FbtTraits& traits() const { return traits_; }
@@ -78,7 +83,7 @@ class Checker {
   private:
     void report(FindingCode code, std::uint64_t word, const char* part, const std::string& message);
     void in_texels(FindingCode code, std::uint64_t texel, const std::string& message) {
-        report(code, texel * 2, "texels", message);
+        report(code, texel, "texels", message);
     }
     void in_record(FindingCode code, std::uint64_t record, const std::string& message) {
         report(code, record * 4, "records", message);
@@ -87,17 +92,16 @@ class Checker {
     [[nodiscard]] const std::uint32_t* record(std::uint64_t k) const { return texture_.records.data() + k * 4; }
 
     void check_texel(std::uint32_t i, std::uint32_t j);
-    void check_apron_texel(std::uint64_t texel);
-    Needs check_directory(std::uint32_t address);
-    Needs walk_directory(std::uint32_t address);
-    Needs check_list(std::uint32_t first);
-    bool check_entry(std::uint32_t at, bool after_unfinished);
-    bool check_terminator(std::uint32_t at, bool after_unfinished);
-    bool check_run(std::uint32_t at);
-    bool check_pieces(std::uint32_t at, std::uint32_t first, std::uint32_t degree, std::uint32_t count);
-    void check_curve(std::uint32_t piece, std::uint32_t degree);
-    void check_sample(std::uint32_t sample, bool in_records, std::uint64_t where);
-    void note_mask(std::uint32_t mask) { traits_.interpolated |= mask != 0; }
+    void check_directory(std::uint32_t address);
+    void walk_directory(std::uint32_t address);
+    void check_list(std::uint32_t first);
+    bool check_entry(std::uint32_t at);
+    bool check_run(std::uint32_t at, const FbtEntry& entry);
+    void check_curve(std::size_t word, std::uint32_t degree);
+    /// Model and sample of a region; where: a texel or a record.
+    void check_region(std::uint32_t model, std::uint32_t sample, bool in_records, std::uint64_t where);
+    void check_patch(std::uint32_t address);
+    void check_sample(std::uint32_t sample, const char* part, std::uint64_t word);
 
     const FbtTexture& texture_;
     std::size_t limit_;
@@ -105,10 +109,11 @@ class Checker {
     FbtTraits traits_;
     std::uint32_t record_count_ = 0;
     static constexpr std::uint32_t kBadList = 0xffffffffu;
-    std::vector<std::uint32_t> list_length_; ///< [record]: entries from here to the terminator; 0 unknown
-    std::vector<std::uint8_t> list_masks_;   ///< [record]: union of masks from here to the terminator
-    std::unordered_map<std::uint32_t, Needs> directories_;
-    std::array<VisitOnce, 2> curves_ = {VisitOnce(0), VisitOnce(0)}; ///< degree 2, degree 3
+    std::vector<std::uint32_t> list_length_; ///< [record]: entries from here to the last; 0 unknown
+    std::vector<bool> patch_seen_;           ///< [record]
+    std::vector<std::uint32_t> path_;
+    std::unordered_set<std::uint32_t> directories_;
+    std::array<VisitOnce, 2> curves_; ///< degree 2, degree 3
 };
 
 void Checker::report(FindingCode code, std::uint64_t word, const char* part, const std::string& message) {
@@ -118,15 +123,14 @@ void Checker::report(FindingCode code, std::uint64_t word, const char* part, con
 
 bool Checker::check_sizes() {
     const auto& t = texture_;
-    const std::uint64_t count = std::uint64_t{t.width + t.apron} * (t.height + t.apron);
     record_count_ = static_cast<std::uint32_t>(t.records.size() / 4);
     const char* wrong = nullptr;
     if (t.width < 1 || t.width > kFbtMaxSide || t.height < 1 || t.height > kFbtMaxSide) {
         wrong = "width or height outside 1 … 16384";
-    } else if (t.apron > 1) {
-        wrong = "apron is neither 0 nor 1";
-    } else if (t.texels.size() != count * 2) {
-        wrong = "the texel array hasn't (width+apron)·(height+apron) texels";
+    } else if (t.texels.size() != std::uint64_t{t.width} * t.height) {
+        wrong = "the texel array hasn't width·height texels";
+    } else if (!t.corners.empty() && t.corners.size() != (std::uint64_t{t.width} + 1) * (t.height + 1)) {
+        wrong = "the corner array is neither empty nor of (width+1)·(height+1) samples";
     } else if (t.records.size() % 4 != 0 || t.records.size() / 4 > kFbtAddressMask) {
         wrong = "the record array isn't of whole records, or is beyond 30-bit addresses";
     }
@@ -134,216 +138,208 @@ bool Checker::check_sizes() {
     return wrong == nullptr;
 }
 
+void Checker::check_corners() {
+    for (std::size_t k = 0; k < texture_.corners.size() && !full(); ++k)
+        check_sample(texture_.corners[k], "corners", k);
+}
+
 void Checker::check_texels() {
     list_length_.assign(record_count_, 0);
-    list_masks_.assign(record_count_, 0);
-    curves_ = {VisitOnce(record_count_), VisitOnce(record_count_)};
-    const std::uint32_t columns = texture_.width + texture_.apron, rows = texture_.height + texture_.apron;
-    for (std::uint32_t j = 0; j < rows && !full(); ++j) {
-        for (std::uint32_t i = 0; i < columns && !full(); ++i) {
-            const std::uint64_t texel = std::uint64_t{j} * columns + i;
-            check_sample(texture_.texels[texel * 2], false, texel);
-            if (i < texture_.width && j < texture_.height) {
-                check_texel(i, j);
-            } else {
-                check_apron_texel(texel);
-            }
-        }
+    patch_seen_.assign(record_count_, false);
+    curves_ = {VisitOnce(texture_.records.size(), 2), VisitOnce(texture_.records.size(), 3)};
+    for (std::uint32_t j = 0; j < texture_.height && !full(); ++j) {
+        for (std::uint32_t i = 0; i < texture_.width && !full(); ++i)
+            check_texel(i, j);
     }
 }
 
 void Checker::check_texel(std::uint32_t i, std::uint32_t j) {
-    const std::uint64_t texel = std::uint64_t{j} * (texture_.width + texture_.apron) + i;
+    const std::uint64_t texel = std::uint64_t{j} * texture_.width + i;
     const std::string name = "texel (" + std::to_string(i) + "," + std::to_string(j) + ")";
-    const std::uint32_t word = texture_.texels[texel * 2 + 1], kind = word >> 30;
-    Needs needs;
-    if (kind == kFbtKindEmpty) {
-        if ((word & kFbtAddressMask) > 0xffu) in_texels(FindingCode::FbtReservedBits, texel, name + ": reserved bits");
-        note_mask(word & 0xffu);
-        needs.masks = word & 0xffu;
-    } else if (kind > kFbtKindBanded) {
-        return in_texels(FindingCode::FbtTexelKind, texel, name + ": kind 3");
+    const std::uint32_t word = texture_.texels[texel], kind = word >> 30;
+    if (kind == kFbtKindSolid) {
+        const bool opaque = (word & kFbtOpaque) != 0;
+        if (word > (kFbtOpaque | 0xffffffu) || (!opaque && word != 0))
+            in_texels(FindingCode::FbtReservedBits, texel, name + ": reserved bits, or a colour that isn't opaque");
+        traits_.translucent |= !opaque;
+    } else if (kind == kFbtKindShaded) {
+        if ((word >> 28 & 3u) == kFbtModelSolid)
+            return in_texels(FindingCode::FbtModel, texel, name + ": shaded by the solid model");
+        check_region(word >> 28 & 3u, word & kFbtSampleMask, false, texel);
     } else if ((word & kFbtAddressMask) >= record_count_) {
-        return in_texels(FindingCode::FbtAddress, texel, name + ": address beyond the records");
+        in_texels(FindingCode::FbtAddress, texel, name + ": address beyond the records");
     } else if (kind == kFbtKindBanded) {
         traits_.bands = true;
-        needs = check_directory(word & kFbtAddressMask);
+        check_directory(word & kFbtAddressMask);
     } else {
-        needs = check_list(word & kFbtAddressMask);
+        check_list(word & kFbtAddressMask);
     }
-    const bool right = i + 1 < texture_.width + texture_.apron, below = j + 1 < texture_.height + texture_.apron;
-    if (((needs.masks & kMaskNeedsRight) != 0 && !right) || ((needs.masks & kMaskNeedsBelow) != 0 && !below))
-        in_texels(FindingCode::FbtMask, texel, name + ": a mask asks for a texel beyond the texture, no apron");
 }
 
-void Checker::check_apron_texel(std::uint64_t texel) {
-    if (texture_.texels[texel * 2 + 1] != 0)
-        in_texels(FindingCode::FbtReservedBits, texel, "word 1 of an apron texel isn't 0");
+void Checker::check_directory(std::uint32_t address) {
+    if (directories_.insert(address).second) walk_directory(address);
 }
 
-Needs Checker::check_directory(std::uint32_t address) {
-    const auto known = directories_.find(address);
-    if (known != directories_.end()) return known->second;
-    const Needs needs = walk_directory(address);
-    directories_.emplace(address, needs);
-    return needs;
-}
-
-Needs Checker::walk_directory(std::uint32_t address) {
+void Checker::walk_directory(std::uint32_t address) {
     const std::uint32_t* words = record(address);
     const std::uint32_t bands = words[0];
-    if (bands == 0 || fbt_directory_records(bands) > record_count_ - address) {
-        in_record(FindingCode::FbtBandCount, address, "directory without bands, or beyond the records");
-        return {};
-    }
-    if (words[1] != 0) in_record(FindingCode::FbtReservedBits, address, "word 1 of a directory isn't 0");
-    if (bands % 2 == 0 && (words[2 + 2 * std::size_t{bands}] | words[3 + 2 * std::size_t{bands}]) != 0)
-        in_record(FindingCode::FbtPadding, address, "padding of a directory isn't 0");
-    Needs needs{true, 0};
+    if (bands == 0 || fbt_directory_records(bands) > record_count_ - address)
+        return in_record(FindingCode::FbtBandCount, address, "directory without bands, or beyond the records");
+    const std::size_t lists = 1 + (std::size_t{bands} + 1) / 2;
+    bool padded = bands % 2 == 0 || words[lists - 1] >> 16 == 0;
+    for (std::size_t k = lists + bands; k < 4 * fbt_directory_records(bands); ++k)
+        padded = padded && words[k] == 0;
+    if (!padded) in_record(FindingCode::FbtPadding, address, "padding of a directory isn't 0");
     std::uint32_t previous = kQuantisedZero;
     for (std::uint32_t k = 0; k < bands; ++k) {
-        const std::uint32_t y_end = words[2 + 2 * std::size_t{k}], first = words[3 + 2 * std::size_t{k}];
-        if (y_end <= previous || y_end > kQuantisedOne || (k + 1 == bands && y_end != kQuantisedOne)) {
-            in_record(FindingCode::FbtBandOrder, address, "y_end of band " + std::to_string(k) + " out of order");
-            return {};
-        }
+        const std::uint32_t y_end = fbt_band_end(words, k), first = words[lists + k];
+        if (y_end <= previous || y_end > kQuantisedOne || (k + 1 == bands && y_end != kQuantisedOne))
+            return in_record(FindingCode::FbtBandOrder, address,
+                             "y_end of band " + std::to_string(k) + " out of order");
         previous = y_end;
-        if (first >= record_count_) {
-            in_record(FindingCode::FbtAddress, address, "address of band " + std::to_string(k) + " beyond the records");
-            return {};
-        }
-        const Needs band = check_list(first);
-        needs.valid &= band.valid;
-        needs.masks |= band.masks;
+        if (first >= record_count_)
+            return in_record(FindingCode::FbtAddress, address,
+                             "address of band " + std::to_string(k) + " beyond the records");
+        check_list(first);
     }
     traits_.max_bands = std::max(traits_.max_bands, bands);
-    return needs;
 }
 
-/// Walks to the terminator or to an entry walked before, then notes lengths and masks backwards.
-Needs Checker::check_list(std::uint32_t first) {
-    std::uint32_t at = first;
-    bool unfinished = false, good = true;
-    while (at < record_count_ && list_length_[at] == 0) {
-        if (!check_entry(at, unfinished)) {
-            good = false;
+/// Walks to the last entry or to one walked before, then notes lengths backwards.
+void Checker::check_list(std::uint32_t first) {
+    path_.clear();
+    std::uint32_t length = 0; // of what follows the path
+    for (std::uint32_t at = first;;) {
+        if (at >= record_count_) {
+            in_record(FindingCode::FbtNoLastEntry, first, "entry list without a last entry");
+            length = kBadList;
             break;
         }
-        const std::uint32_t bits = record(at)[1];
-        list_masks_[at] = static_cast<std::uint8_t>(record(at)[3]);
-        if (bits & kFbtEntryTerminator) {
-            list_length_[at] = 1;
+        if (list_length_[at] != 0) {
+            length = list_length_[at];
             break;
         }
-        unfinished = (bits & kFbtEntryLastRun) == 0;
-        ++at;
+        path_.push_back(at);
+        if (!check_entry(at)) {
+            length = kBadList;
+            break;
+        }
+        const FbtEntry entry(record(at)[0]);
+        if (entry.last()) break;
+        at += entry.records();
     }
-    if (at == record_count_) {
-        in_record(FindingCode::FbtNoTerminator, first, "entry list without a terminator");
-        good = false;
-    } else if (good && unfinished && (record(at)[1] & kFbtEntryTerminator) != 0) {
-        good = check_terminator(at, unfinished);
-    }
-    std::uint32_t length = good ? list_length_[at] : kBadList;
-    std::uint32_t masks = good ? list_masks_[at] : 0;
-    if (at < record_count_) list_length_[at] = length;
-    for (std::uint32_t k = at; k > first;) {
-        --k;
+    for (auto at = path_.rbegin(); at != path_.rend(); ++at) {
+        if (length == kFbtMaxEntries) in_record(FindingCode::FbtTooManyEntries, *at, "more entries than 2^20");
         length = length >= kFbtMaxEntries ? kBadList : length + 1;
-        masks |= list_masks_[k];
-        list_length_[k] = length;
-        list_masks_[k] = static_cast<std::uint8_t>(masks);
+        list_length_[*at] = length;
     }
-    if (good && length == kBadList) in_record(FindingCode::FbtTooManyEntries, first, "more entries than 2^20");
-    if (length == kBadList) return {};
-    traits_.max_entries = std::max(traits_.max_entries, length);
-    return {true, masks};
+    if (length != kBadList) traits_.max_entries = std::max(traits_.max_entries, length);
 }
 
-bool Checker::check_entry(std::uint32_t at, bool after_unfinished) {
-    const std::uint32_t* entry = record(at);
-    if (entry[1] & kFbtEntryTerminator) {
-        if (!check_terminator(at, after_unfinished)) return false;
-    } else if (!check_run(at)) {
+/// False: what follows it can't be found.
+bool Checker::check_entry(std::uint32_t at) {
+    const std::uint32_t* words = record(at);
+    const FbtEntry entry(words[0]);
+    if ((words[0] & ~kEntryBits) != 0) in_record(FindingCode::FbtReservedBits, at, "reserved bits of an entry");
+    if ((entry.pieces() == 0) != (entry.degree() == 0)) {
+        in_record(FindingCode::FbtDegree, at, "pieces without a degree, or a degree without pieces");
         return false;
     }
-    if (entry[3] > 0xffu) in_record(FindingCode::FbtReservedBits, at, "reserved bits beside a mask");
-    if (entry[1] & (kFbtEntryLastRun | kFbtEntryTerminator)) {
-        check_sample(entry[2], true, at);
-        note_mask(entry[3] & 0xffu);
-    } else if ((entry[2] | entry[3]) != 0) {
-        in_record(FindingCode::FbtStraySample, at, "sample or mask on a run that isn't the last of its feature");
+    if (entry.records() > record_count_ - at) {
+        in_record(FindingCode::FbtPieceAddress, at, "an entry beyond the records");
+        return false;
     }
-    return true;
+    if (entry.last()) {
+        check_region(entry.rest_model(), words[entry.rest_word()], true, at);
+        if (!entry.last_run()) {
+            in_record(FindingCode::FbtUnfinishedFeature, at, "the last entry isn't the last run of its feature");
+            return false;
+        }
+    } else if (entry.rest_model() != 0) {
+        in_record(FindingCode::FbtStraySample, at, "a rest before the last entry");
+    }
+    for (std::size_t k = entry.rest_word() + (entry.last() ? 1 : 0); k < std::size_t{4} * entry.records(); ++k)
+        if (words[k] != 0) in_record(FindingCode::FbtPadding, at, "padding of an entry isn't 0");
+    if (entry.pieces() == 0) {
+        const std::uint32_t plain = kFbtEntryLast | kFbtEntryLastRun | entry.rest_model() << 18;
+        if (words[0] == plain && words[1] == 0 && words[2] == 0) return true;
+        in_record(FindingCode::FbtEmptyRun, at, "an entry without pieces that isn't a lone rest");
+        return false;
+    }
+    if (entry.last_run()) {
+        check_region(entry.model(), words[1], true, at);
+    } else if ((entry.model() | words[1]) != 0) {
+        in_record(FindingCode::FbtStraySample, at, "a sample on a run that isn't the last of its feature");
+    }
+    return check_run(at, entry);
 }
 
-bool Checker::check_terminator(std::uint32_t at, bool after_unfinished) {
-    const std::uint32_t* entry = record(at);
-    if (after_unfinished) {
-        in_record(FindingCode::FbtUnfinishedFeature, at, "terminator after a run that isn't the last of its feature");
+bool Checker::check_run(std::uint32_t at, const FbtEntry& entry) {
+    const std::uint32_t degree = entry.degree();
+    const std::size_t size = texture_.records.size();
+    const std::size_t first = entry.shared() ? record(at)[2] : std::size_t{4} * at + 2;
+    if (first >= size || entry.points() > size - first) {
+        in_record(FindingCode::FbtPieceAddress, at, "points beyond the records");
         return false;
     }
-    if (entry[0] != 0 || entry[1] != kFbtEntryTerminator)
-        in_record(FindingCode::FbtTerminator, at, "terminator with pieces or other bits");
-    return true;
-}
-
-bool Checker::check_run(std::uint32_t at) {
-    const std::uint32_t* entry = record(at);
-    const std::uint32_t count = entry[1] & 0xffffu, degree = entry[1] >> 16 & 3u;
-    if ((entry[1] & ~kEntryBits) != 0) in_record(FindingCode::FbtReservedBits, at, "reserved bits of an entry");
-    if (count == 0) {
-        in_record(FindingCode::FbtEmptyRun, at, "run without pieces");
-        return false;
-    }
-    if (degree == 0) {
-        in_record(FindingCode::FbtDegree, at, "run of degree 0");
-        return false;
-    }
-    if (entry[0] >= record_count_ || fbt_piece_records(degree, count) > record_count_ - entry[0]) {
-        in_record(FindingCode::FbtPieceAddress, at, "pieces beyond the records");
-        return false;
-    }
+    traits_.shared |= entry.shared();
     traits_.degrees |= 1u << degree;
     traits_.max_degree = std::max(traits_.max_degree, degree);
-    traits_.directions |= 1u << (entry[1] >> 18 & 3u);
-    return check_pieces(at, entry[0], degree, count);
-}
-
-bool Checker::check_pieces(std::uint32_t at, std::uint32_t first, std::uint32_t degree, std::uint32_t count) {
-    if (degree == 1) {
-        const std::uint32_t* points = record(first);
-        for (std::uint64_t k = std::uint64_t{count} + 1; k < fbt_piece_records(1, count) * 4; ++k)
-            if (points[k] != 0) in_record(FindingCode::FbtPadding, at, "padding of a polyline isn't 0");
-        return true;
-    }
+    traits_.directions |= 1u << entry.direction();
+    if (degree == 1) return true;
     VisitOnce& curves = curves_[degree - 2];
-    for (std::uint32_t k = curves.first_unvisited(first); k < first + count; k = curves.first_unvisited(k)) {
+    const std::size_t end = first + std::size_t{entry.pieces()} * degree;
+    for (std::size_t k = curves.first_unvisited(first); k < end; k = curves.first_unvisited(k)) {
         check_curve(k, degree);
         curves.visit(k);
     }
     return true;
 }
 
-void Checker::check_curve(std::uint32_t piece, std::uint32_t degree) {
-    const std::uint32_t* points = record(piece);
-    if (degree == 2 && points[3] != 0) in_record(FindingCode::FbtPadding, piece, "padding of a quadratic isn't 0");
+void Checker::check_region(std::uint32_t model, std::uint32_t sample, bool in_records, std::uint64_t where) {
+    const auto found = [&](FindingCode code, const char* message) {
+        in_records ? in_record(code, where, message) : in_texels(code, where, message);
+    };
+    if (model == kFbtModelSolid)
+        return check_sample(sample, in_records ? "records" : "texels", where * (in_records ? 4 : 1));
+    if (model == kFbtModelCorners) {
+        traits_.corners = true;
+        if (sample != 0) found(FindingCode::FbtReservedBits, "a sample beside the model corners");
+        if (texture_.corners.empty()) found(FindingCode::FbtCorners, "the model corners in a texture that has none");
+    } else if (model != kFbtModelPatch) {
+        found(FindingCode::FbtModel, "unknown model");
+    } else if (sample >= record_count_) {
+        found(FindingCode::FbtAddress, "a patch beyond the records");
+    } else {
+        traits_.patches = true;
+        check_patch(sample);
+    }
+}
+
+void Checker::check_patch(std::uint32_t address) {
+    if (patch_seen_[address]) return;
+    patch_seen_[address] = true;
+    for (std::uint32_t k = 0; k < 4; ++k)
+        check_sample(record(address)[k], "records", std::size_t{4} * address + k);
+}
+
+void Checker::check_curve(std::size_t word, std::uint32_t degree) {
+    const std::uint32_t* points = texture_.records.data() + word;
     for (const std::uint32_t shift : {0u, 16u}) {
         std::array<double, 4> c{};
         for (std::uint32_t n = 0; n <= degree; ++n)
             c[n] = static_cast<double>(points[n] >> shift & 0xffffu);
         if (backtrack(c, degree) > kFbtMonotoneSlack)
-            in_record(FindingCode::FbtNotMonotone, piece,
-                      shift == 0 ? "piece turns back in x" : "piece turns back in y");
+            report(FindingCode::FbtNotMonotone, word, "records",
+                   shift == 0 ? "piece turns back in x" : "piece turns back in y");
     }
 }
 
-void Checker::check_sample(std::uint32_t sample, bool in_records, std::uint64_t where) {
+void Checker::check_sample(std::uint32_t sample, const char* part, std::uint64_t word) {
     const std::uint32_t alpha = sample >> 24;
     traits_.translucent |= alpha < 255;
     if ((sample & 0xffu) <= alpha && (sample >> 8 & 0xffu) <= alpha && (sample >> 16 & 0xffu) <= alpha) return;
-    if (in_records) return in_record(FindingCode::FbtNotPremultiplied, where, "a colour channel exceeds alpha");
-    in_texels(FindingCode::FbtNotPremultiplied, where, "a colour channel exceeds alpha");
+    report(FindingCode::FbtNotPremultiplied, word, part, "a colour channel exceeds alpha");
 }
 
 void Checker::check_traits() {
@@ -356,7 +352,9 @@ void Checker::check_traits() {
     differs("max_degree", stated.max_degree, real.max_degree);
     differs("degrees", stated.degrees, real.degrees);
     differs("bands", stated.bands, real.bands);
-    differs("interpolated", stated.interpolated, real.interpolated);
+    differs("corners", stated.corners, real.corners);
+    differs("patches", stated.patches, real.patches);
+    differs("shared", stated.shared, real.shared);
     differs("translucent", stated.translucent, real.translucent);
     differs("directions", stated.directions, real.directions);
     differs("max_entries", stated.max_entries, real.max_entries);
@@ -368,6 +366,7 @@ void Checker::check_traits() {
 std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit) {
     Checker checker(texture, std::max<std::size_t>(limit, 1));
     if (!checker.check_sizes()) return checker.take();
+    checker.check_corners();
     checker.check_texels();
     checker.check_traits();
     return checker.take();
@@ -376,6 +375,7 @@ std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit) 
 FbtTraits fbt_traits(const FbtTexture& texture) {
     Checker checker(texture, 0);
     if (!checker.check_sizes()) return {};
+    checker.check_corners();
     checker.check_texels();
     return checker.traits();
 }

@@ -11,7 +11,7 @@
 namespace fetex {
 
 inline constexpr std::uint32_t kFbtMaxSide = 16384;
-inline constexpr std::uint32_t kFbtMaxEntries = 1u << 20; ///< in one band, terminator included
+inline constexpr std::uint32_t kFbtMaxEntries = 1u << 20; ///< in one band
 /// Steps of 2^-15 texel by which a piece may turn back in x or y: rounding its control points gives 1, and as much for
 /// each of cutting, monotone splitting and end points moved to shared vertices.
 inline constexpr double kFbtMonotoneSlack = 4;
@@ -20,7 +20,7 @@ inline constexpr double kFbtMonotoneSlack = 4;
 /// Takes time and memory in proportion to the texture, whatever its content.
 std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit = 64);
 
-/// The traits a texture has; entries of a list count with their terminator, samples of every texel and apron count.
+/// The traits a texture has; all corners count.
 /// Safe on any content: parts that validate_fbt would refuse are left out.
 FbtTraits fbt_traits(const FbtTexture& texture);
 

@@ -8,15 +8,13 @@
 // coordinate in integers or doubles and call the second.
 //
 // Needs a prelude (fetex_prelude_*.glsl) and these textures:
-//   fetexFbtTexels   RG32UI 2D, (width+apron)x(height+apron), the chunk FBTT
+//   fetexFbtTexels   R32UI 2D, width x height, the chunk FBTT
 //   fetexFbtRecords  RGBA32UI 2D, 2048 wide (or less, if all fits in one row), the chunk FBTR padded to whole rows;
 //                    with FETEX_TEXTURE_BUFFER a RGBA32UI texture buffer of the same bytes
+//   fetexFbtCorners  R32UI 2D, (width+1) x (height+1), the chunk FBTC; only with FETEX_FBT_CORNERS
 // Specialisation, from the asset's header; each default leaves the feature in:
-#ifndef FETEX_FBT_APRON
-#define FETEX_FBT_APRON 1 // apron of the asset, 0 or 1
-#endif
 #ifndef FETEX_FBT_FEATURES
-#define FETEX_FBT_FEATURES 1 // 0: every texel is empty
+#define FETEX_FBT_FEATURES 1 // 0: every texel is of one region
 #endif
 #ifndef FETEX_FBT_DEGREES
 #define FETEX_FBT_DEGREES 14 // bit d: there are pieces of degree d
@@ -24,8 +22,14 @@
 #ifndef FETEX_FBT_BANDS
 #define FETEX_FBT_BANDS 1 // 0: no texel is banded
 #endif
-#ifndef FETEX_FBT_INTERPOLATED
-#define FETEX_FBT_INTERPOLATED 1 // 0: every region has one colour
+#ifndef FETEX_FBT_CORNERS
+#define FETEX_FBT_CORNERS 1 // 0: no region has the model corners
+#endif
+#ifndef FETEX_FBT_PATCHES
+#define FETEX_FBT_PATCHES 1 // 0: no region has the model patch
+#endif
+#ifndef FETEX_FBT_SHARED
+#define FETEX_FBT_SHARED 1 // 0: every run has its points in its entry
 #endif
 #ifndef FETEX_FBT_TRANSLUCENT
 #define FETEX_FBT_TRANSLUCENT 1 // 0: alpha is 1 everywhere
@@ -39,6 +43,10 @@
 
 FETEX_UNIFORM(0) highp usampler2D fetexFbtTexels;
 
+#if FETEX_FBT_CORNERS
+FETEX_UNIFORM(2) highp usampler2D fetexFbtCorners;
+#endif
+
 vec4 fetexFbtColor(uint rgba8) {
 #if FETEX_FBT_TRANSLUCENT
     uvec4 channels = uvec4(rgba8, rgba8 >> 8u, rgba8 >> 16u, rgba8 >> 24u) & 255u;
@@ -49,8 +57,7 @@ vec4 fetexFbtColor(uint rgba8) {
 #endif
 }
 
-#if FETEX_FBT_FEATURES
-
+#if FETEX_FBT_FEATURES || FETEX_FBT_PATCHES
 #ifdef FETEX_TEXTURE_BUFFER
 FETEX_UNIFORM(1) highp usamplerBuffer fetexFbtRecords;
 uvec4 fetexFbtRecord(uint index) { return texelFetch(fetexFbtRecords, int(index)); }
@@ -60,6 +67,19 @@ uvec4 fetexFbtRecord(uint index) {
     return texelFetch(fetexFbtRecords, ivec2(int(index & 2047u), int(index >> 11u)), 0);
 }
 #endif
+#endif
+
+#if FETEX_FBT_FEATURES
+
+uint fetexFbtWord(uvec4 record, uint slot) {
+    return slot < 2u ? (slot == 0u ? record.x : record.y) : (slot == 2u ? record.z : record.w);
+}
+
+// Four words from a slot of record a on, into the next record b.
+uvec4 fetexFbtWords(uvec4 a, uvec4 b, uint slot) {
+    uvec4 even = slot >= 2u ? uvec4(a.zw, b.xy) : a;
+    return (slot & 1u) == 0u ? even : uvec4(even.yzw, slot >= 2u ? b.z : b.x);
+}
 
 // u*2^-15 - 1/2, exact. A ray along y sees x and y swapped, so that below every ray runs along x.
 vec2 fetexFbtPoint(uint word, bool swapped) {
@@ -125,22 +145,31 @@ bool fetexFbtCrossesCubic(vec2 a, vec2 b, vec2 c, vec2 d, vec2 p, bool negative)
 }
 #endif
 
-// Whether the run's pieces are crossed an odd number of times (FBT section 4.5). entry: SPEC section 3.3.
-bool fetexFbtRunParity(uvec4 entry, vec2 local) {
-    uint count = entry.y & 0xffffu, degree = (entry.y >> 16u) & 3u;
+// Whether the run's pieces are crossed an odd number of times (FBT section 4.5). entry: the first record of the entry at
+// `index` (SPEC section 3.3).
+bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
+    uint count = entry.x & 0x3ffu, degree = (entry.x >> 10u) & 3u;
+    uint at = index * 4u + 2u; // word of the first point
+    uvec4 a = entry;           // record that holds it
+#if FETEX_FBT_SHARED
+    if ((entry.x & 0x100000u) != 0u) {
+        at = entry.z;
+        a = fetexFbtRecord(at >> 2u);
+    }
+#endif
 #if (FETEX_FBT_DIRECTIONS & 12) == 0
     const bool swapped = false;
 #elif (FETEX_FBT_DIRECTIONS & 3) == 0
     const bool swapped = true;
 #else
-    bool swapped = (entry.y & 0x80000u) != 0u;
+    bool swapped = (entry.x & 0x2000u) != 0u;
 #endif
 #if (FETEX_FBT_DIRECTIONS & 10) == 0
     const bool negative = false;
 #elif (FETEX_FBT_DIRECTIONS & 5) == 0
     const bool negative = true;
 #else
-    bool negative = (entry.y & 0x40000u) != 0u;
+    bool negative = (entry.x & 0x1000u) != 0u;
 #endif
     vec2 p = swapped ? local.yx : local;
     bool odd = false;
@@ -148,22 +177,25 @@ bool fetexFbtRunParity(uvec4 entry, vec2 local) {
 #if (FETEX_FBT_DEGREES & 2) != 0
     uint lines = degree == 1u ? count : 0u;
     if (lines > 0u) {
-        uvec4 words = fetexFbtRecord(entry.x);
-        vec2 a = fetexFbtPoint(words.x, swapped);
-        for (uint k = 1u; k <= lines; ++k) {
-            uint slot = k & 3u;
-            if (slot == 0u) words = fetexFbtRecord(entry.x + (k >> 2u));
-            uint word = slot < 2u ? (slot == 0u ? words.x : words.y) : (slot == 2u ? words.z : words.w);
-            vec2 b = fetexFbtPoint(word, swapped);
-            odd = odd != fetexFbtCrossesLine(a, b, p, negative);
-            a = b;
+        vec2 start = fetexFbtPoint(fetexFbtWord(a, at & 3u), swapped);
+        for (uint k = 0u; k < lines; ++k) {
+            ++at;
+            if ((at & 3u) == 0u) a = fetexFbtRecord(at >> 2u);
+            vec2 end = fetexFbtPoint(fetexFbtWord(a, at & 3u), swapped);
+            odd = odd != fetexFbtCrossesLine(start, end, p, negative);
+            start = end;
         }
     }
 #endif
 #if (FETEX_FBT_DEGREES & 4) != 0
     uint quadratics = degree == 2u ? count : 0u;
     for (uint k = 0u; k < quadratics; ++k) {
-        uvec4 words = fetexFbtRecord(entry.x + k);
+        uint slot = at & 3u;
+        uvec4 b = a;
+        if (slot >= 2u) b = fetexFbtRecord((at >> 2u) + 1u);
+        uvec4 words = fetexFbtWords(a, b, slot);
+        at += 2u;
+        a = b;
         odd = odd != fetexFbtCrossesQuadratic(fetexFbtPoint(words.x, swapped), fetexFbtPoint(words.y, swapped),
                                               fetexFbtPoint(words.z, swapped), p, negative);
     }
@@ -171,7 +203,12 @@ bool fetexFbtRunParity(uvec4 entry, vec2 local) {
 #if (FETEX_FBT_DEGREES & 8) != 0
     uint cubics = degree == 3u ? count : 0u;
     for (uint k = 0u; k < cubics; ++k) {
-        uvec4 words = fetexFbtRecord(entry.x + k);
+        uint slot = at & 3u;
+        uvec4 b = a;
+        if (slot != 0u) b = fetexFbtRecord((at >> 2u) + 1u);
+        uvec4 words = fetexFbtWords(a, b, slot);
+        at += 3u;
+        a = b;
         odd = odd != fetexFbtCrossesCubic(fetexFbtPoint(words.x, swapped), fetexFbtPoint(words.y, swapped),
                                           fetexFbtPoint(words.z, swapped), fetexFbtPoint(words.w, swapped), p, negative);
     }
@@ -180,74 +217,94 @@ bool fetexFbtRunParity(uvec4 entry, vec2 local) {
 }
 
 #if FETEX_FBT_BANDS
-// Address of the first entry of the band that holds y. At most 2^15 bands: their ends are different u16.
+// Record of the entry list of the band that holds y. At most 2^15 bands: their ends are different u16.
 uint fetexFbtFindBand(uint directory, float y) {
-    uint low = 0u, high = fetexFbtRecord(directory).x - 1u;
+    uint bands = fetexFbtRecord(directory).x;
+    uint low = 0u, high = bands - 1u;
     for (int k = 0; k < 16 && low < high; ++k) {
         uint middle = (low + high) >> 1u;
-        uvec4 words = fetexFbtRecord(directory + ((middle + 1u) >> 1u));
-        float end = fetexFbtPoint((middle & 1u) != 0u ? words.x : words.z, false).x;
+        uint at = 1u + (middle >> 1u);
+        uint ends = fetexFbtWord(fetexFbtRecord(directory + (at >> 2u)), at & 3u);
+        float end = float((middle & 1u) == 0u ? ends & 0xffffu : ends >> 16u) * (1.0 / 32768.0) - 0.5;
         if (y < end) high = middle; else low = middle + 1u;
     }
-    uvec4 words = fetexFbtRecord(directory + ((low + 1u) >> 1u));
-    return (low & 1u) != 0u ? words.y : words.w;
+    uint list = 1u + ((bands + 1u) >> 1u) + low;
+    return fetexFbtWord(fetexFbtRecord(directory + (list >> 2u)), list & 3u);
 }
 #endif
 
-// Sample and mask of the first feature, in order, that has the point inside; else of the terminator (FBT section 4.5).
-uvec2 fetexFbtFindRegion(uint first, vec2 local) {
-    uvec2 region = uvec2(0u);
+// Words of an entry before the sample of the rest.
+uint fetexFbtEntryWords(uint bits) {
+#if FETEX_FBT_SHARED
+    if ((bits & 0x100000u) != 0u) return 3u;
+#endif
+    return (bits & 0x3ffu) * ((bits >> 10u) & 3u) + 3u;
+}
+
+// Model and sample of the first feature, in order, that has the point inside; else of the rest (FBT section 4.5).
+uvec2 fetexFbtFindRegion(uint index, vec2 local) {
+    uvec4 entry = uvec4(0u);
     bool odd = false;
     for (int k = 0; k < FETEX_FBT_MAX_ENTRIES; ++k) {
-        uvec4 entry = fetexFbtRecord(first + uint(k));
-        region = entry.zw;
-        if ((entry.y & 0x200000u) != 0u) break;
-        odd = odd != fetexFbtRunParity(entry, local);
-        if ((entry.y & 0x100000u) != 0u) {
-            if (odd) break;
-            odd = false;
-        }
+        entry = fetexFbtRecord(index);
+        odd = odd != fetexFbtRunParity(entry, index, local);
+        bool lastRun = (entry.x & 0x4000u) != 0u, last = (entry.x & 0x8000u) != 0u;
+        if ((odd && lastRun) || last) break;
+        odd = odd && !lastRun;
+        index += (fetexFbtEntryWords(entry.x) + 3u) >> 2u;
     }
-    return region;
+    if (odd) return uvec2((entry.x >> 16u) & 3u, entry.y);
+    uint rest = fetexFbtEntryWords(entry.x);
+    if (rest > 3u) entry.w = fetexFbtWord(fetexFbtRecord(index + (rest >> 2u)), rest & 3u);
+    return uvec2((entry.x >> 18u) & 3u, entry.w);
 }
 
 #endif // FETEX_FBT_FEATURES
 
-// Corner k of the interpolation square (FBT section 4.6): the region's own sample, or a neighbouring texel's.
-vec4 fetexFbtCorner(ivec2 base, uint own, uint mask, uint k) {
-    uint code = (mask >> (2u * k)) & 3u;
-    if (code != 0u) own = texelFetch(fetexFbtTexels, base + ivec2(int(code & 1u), int(code >> 1u)), 0).x;
-    return fetexFbtColor(own);
-}
-
-vec4 fetexFbtShade(ivec2 base, vec2 local, uint own, uint mask) {
-#if FETEX_FBT_INTERPOLATED
-    if ((mask & 255u) != 0u) {
-        vec4 upper = mix(fetexFbtCorner(base, own, mask, 0u), fetexFbtCorner(base, own, mask, 1u), local.x);
-        vec4 lower = mix(fetexFbtCorner(base, own, mask, 2u), fetexFbtCorner(base, own, mask, 3u), local.x);
+// The models of SPEC section 3.4. region: model, sample.
+vec4 fetexFbtShade(ivec2 base, vec2 local, uvec2 region) {
+#if FETEX_FBT_CORNERS || FETEX_FBT_PATCHES
+    if (region.x != 0u) {
+        uvec4 samples = uvec4(0u);
+#if FETEX_FBT_PATCHES
+        if (region.x == 2u) samples = fetexFbtRecord(region.y);
+#endif
+#if FETEX_FBT_CORNERS
+        if (region.x == 1u) {
+            samples.x = texelFetch(fetexFbtCorners, base, 0).x;
+            samples.y = texelFetch(fetexFbtCorners, base + ivec2(1, 0), 0).x;
+            samples.z = texelFetch(fetexFbtCorners, base + ivec2(0, 1), 0).x;
+            samples.w = texelFetch(fetexFbtCorners, base + ivec2(1, 1), 0).x;
+        }
+#endif
+        vec4 upper = mix(fetexFbtColor(samples.x), fetexFbtColor(samples.y), local.x);
+        vec4 lower = mix(fetexFbtColor(samples.z), fetexFbtColor(samples.w), local.x);
         return mix(upper, lower, local.y);
     }
 #endif
-    return fetexFbtColor(own);
+    return fetexFbtColor(region.y);
 }
 
-ivec2 fetexFbtSize() { return textureSize(fetexFbtTexels, 0) - FETEX_FBT_APRON; }
+ivec2 fetexFbtSize() { return textureSize(fetexFbtTexels, 0); }
 
 vec4 fetexFbtSampleTexel(ivec2 base, vec2 local) {
     base = clamp(base, ivec2(0), fetexFbtSize() - 1);
-    uvec2 texel = texelFetch(fetexFbtTexels, base, 0).xy;
-    uvec2 region = uvec2(texel.x, texel.y);
+    uint texel = texelFetch(fetexFbtTexels, base, 0).x;
+    uint kind = texel >> 30u;
+    uvec2 region = uvec2(0u, (texel & 0x1000000u) != 0u ? texel | 0xff000000u : 0u);
+#if FETEX_FBT_CORNERS || FETEX_FBT_PATCHES
+    if (kind == 3u) region = uvec2((texel >> 28u) & 3u, texel & 0xfffffffu);
+#endif
 #if FETEX_FBT_FEATURES
-    uint kind = texel.y >> 30u;
-    if (kind != 0u) {
-        uint first = texel.y & 0x3fffffffu;
+    if (kind == 1u || kind == 2u) {
+        uint first = texel & 0x3fffffffu;
 #if FETEX_FBT_BANDS
         if (kind == 2u) first = fetexFbtFindBand(first, local.y);
 #endif
         region = fetexFbtFindRegion(first, local);
     }
 #endif
-    return fetexFbtShade(base, local, region.x, region.y);
+    return fetexFbtShade(base, local, region);
 }
 
 vec4 fetexFbtSample(vec2 uv) {

@@ -54,8 +54,8 @@ void add(FbtStats& a, const FbtStats& b) {
 void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
     a.max_degree = std::max(a.max_degree, b.max_degree);
     a.degrees |= b.degrees, a.directions |= b.directions;
-    a.bands = a.bands || b.bands, a.interpolated = a.interpolated || b.interpolated,
-    a.translucent = a.translucent || b.translucent;
+    a.bands |= b.bands, a.corners |= b.corners, a.patches |= b.patches, a.shared |= b.shared,
+        a.translucent |= b.translucent;
     a.max_entries = std::max(a.max_entries, b.max_entries), a.max_bands = std::max(a.max_bands, b.max_bands);
 }
 
@@ -120,7 +120,7 @@ class Builder {
             ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
             if (edges.empty() && options_.skip.empty_texels) {
                 reach.add_empty(corners_.at(i, j));
-                return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+                return writer.write_whole(sampler_.whole(i, j));
             }
             if (!mapper.analyse(i, j, corner, texel) || !feature_builder.build(texel, features)) {
                 status = inconsistent(i, j);
@@ -129,11 +129,11 @@ class Builder {
             stats.edges_visible += features.edges_visible, stats.edges_invisible += features.edges_invisible;
             if (features.bands.empty()) {
                 reach.add_empty(corners_.at(i, j));
-                return writer.write_empty(corners_.rgba(i, j), sampler_.whole(i, j));
+                return writer.write_whole(sampler_.whole(i, j));
             }
             const std::uint32_t vertex = reach.add_texel(texel, features.region_of_face, features.region_result);
             out.stats.bands_avoided += levels(texel) - std::min(levels(texel), features.bands.size() - 1);
-            writer.write_texel(corners_.rgba(i, j), texel, features, vertex);
+            writer.write_texel(texel, features, vertex);
         });
         return status;
     }
@@ -155,7 +155,6 @@ class Builder {
         t.width = map_.grid().width, t.height = map_.grid().height;
         for (const RowOutput& row : rows)
             add(t.traits, row.traits), add(build.report.fbt, row.stats);
-        t.apron = t.traits.interpolated ? 1 : 0;
         std::vector<std::uint32_t> collapsed; // vertices of the graph
         std::vector<std::size_t> base{0};     // where each row's records begin
         for (std::uint32_t j = 0; j < t.height; ++j) {
@@ -163,24 +162,22 @@ class Builder {
                 collapsed.push_back(graph.row_start(j) + v);
             base.push_back(base.back() + rows[j].records.size() / 4);
         }
-        if (base.back() > fetex::kFbtAddressMask) {
+        if (base.back() > fetex::kFbtSampleMask) {
             return Error{ErrorClass::Unsupported, diag::kFbtTooLarge,
                          "the texture needs more records than the format can address", ""};
         }
         t.records.resize(4 * base.back());
-        t.texels.resize(2 * static_cast<std::size_t>(t.width + t.apron) * (t.height + t.apron));
+        t.texels.resize(static_cast<std::size_t>(t.width) * t.height);
         parallel_for(t.height, options_.threads, [&](std::size_t j) {
-            place_row(rows[j], base[j], t.texels.begin() + static_cast<std::ptrdiff_t>(2 * j * (t.width + t.apron)), t);
-            if (t.apron == 1) place_corner(t.width, static_cast<std::uint32_t>(j), t);
+            place_row(rows[j], base[j], t.texels.begin() + static_cast<std::ptrdiff_t>(j * t.width), t);
         });
-        for (std::uint32_t i = 0; t.apron == 1 && i <= t.width; ++i)
-            place_corner(i, t.height, t);
+        if (t.traits.corners) place_corners(t);
         for (std::uint32_t j = 0; regions != nullptr && j < t.height; ++j) {
             for (const RegionEntry& e : rows[j].entries)
                 regions->entries.push_back(
-                    {e.record + static_cast<std::uint32_t>(base[j]), e.result, e.vertex + graph.row_start(j)});
+                    {e.record + static_cast<std::uint32_t>(base[j]), e.rest, e.result, e.vertex + graph.row_start(j)});
         }
-        build.report.fbt.gpu_bytes = (t.texels.size() + t.records.size()) * sizeof(std::uint32_t);
+        build.report.fbt.gpu_bytes = fetex::fbt_gpu_bytes(t);
         report_lost(collapsed, graph, build.report);
         if (regions != nullptr) {
             for (std::uint32_t j = 0; j <= t.height; ++j) {
@@ -222,20 +219,28 @@ class Builder {
     static void place_row(RowOutput& row, std::size_t base, std::vector<std::uint32_t>::iterator texels,
                           fetex::FbtTexture& t) {
         const auto first = static_cast<std::uint32_t>(base);
-        for (std::uint32_t w : row.relocate)
+        for (std::uint32_t w : row.record_indices)
             row.records[w] += first;
-        for (std::size_t k = 1; k < row.texels.size(); k += 2) {
-            if (row.texels[k] >> 30 != fetex::kFbtKindEmpty) row.texels[k] += first;
+        for (std::uint32_t w : row.word_indices)
+            row.records[w] += 4 * first;
+        for (std::uint32_t& texel : row.texels) {
+            const std::uint32_t kind = texel >> 30;
+            const bool corners = (texel >> 28 & 3u) == fetex::kFbtModelCorners;
+            if (kind != fetex::kFbtKindSolid && !(kind == fetex::kFbtKindShaded && corners)) texel += first;
         }
         std::copy(row.texels.begin(), row.texels.end(), texels);
         std::copy(row.records.begin(), row.records.end(), t.records.begin() + static_cast<std::ptrdiff_t>(4 * base));
-        row.texels = {}, row.records = {}, row.relocate = {};
+        row.texels = {}, row.records = {}, row.record_indices = {}, row.word_indices = {};
     }
 
-    void place_corner(std::uint32_t i, std::uint32_t j, fetex::FbtTexture& t) const {
-        const std::size_t k = 2 * (static_cast<std::size_t>(j) * (t.width + 1) + i);
-        t.texels[k] = corners_.rgba(i, j);
-        t.texels[k + 1] = fetex::kFbtKindEmpty << 30;
+    void place_corners(fetex::FbtTexture& t) const {
+        const std::size_t columns = std::size_t{t.width} + 1;
+        t.corners.resize(columns * (std::size_t{t.height} + 1));
+        parallel_for(std::size_t{t.height} + 1, options_.threads, [&](std::size_t j) {
+            for (std::uint32_t i = 0; i <= t.width; ++i)
+                t.corners[j * columns + i] = pack_rgba8(corners_.color(i, static_cast<std::uint32_t>(j)));
+        });
+        t.traits.translucent |= std::ranges::any_of(t.corners, [](std::uint32_t c) { return c < 0xff000000u; });
     }
 
     const Scene& scene_;
@@ -257,21 +262,23 @@ GridSize complete(const Extent& e, GridSize s) {
     return s;
 }
 
-const RegionEntry& entry_of(const std::vector<RegionEntry>& entries, std::uint32_t record) {
-    return *std::lower_bound(entries.begin(), entries.end(), record,
-                             [](const RegionEntry& e, std::uint32_t r) { return e.record < r; });
+const RegionEntry& entry_of(const std::vector<RegionEntry>& entries, const fetex::FbtRegion& region) {
+    return *std::lower_bound(entries.begin(), entries.end(), region,
+                             [](const RegionEntry& e, const fetex::FbtRegion& r) {
+                                 return std::pair(e.record, e.rest) < std::pair(r.record, r.rest);
+                             });
 }
 
 } // namespace
 
 ResultId FbtRegions::result_of(const fetex::FbtRegion& region, std::uint32_t width) const {
     if (region.record == 0xffffffffu) return corners[static_cast<std::size_t>(region.j) * (width + 1) + region.i];
-    return entry_of(entries, region.record).result;
+    return entry_of(entries, region).result;
 }
 
 std::uint32_t FbtRegions::vertex_of(const fetex::FbtRegion& region) const {
     if (region.record == 0xffffffffu) return reachability->first_vertex(region.i, region.j);
-    return entry_of(entries, region.record).vertex;
+    return entry_of(entries, region).vertex;
 }
 
 GridSize grid_for(const Extent& extent, std::uint32_t longer_side) {

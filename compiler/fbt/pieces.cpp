@@ -128,7 +128,8 @@ void make_runs(const PlanarMap& map, const TexelMap& texel, std::span<const Feat
             return;
         }
         ++stats.pieces;
-        if (out.runs.size() == first || out.runs.back().degree != piece.degree || out.runs.back().pieces == 0xffff)
+        if (out.runs.size() == first || out.runs.back().degree != piece.degree ||
+            out.runs.back().pieces == fetex::kFbtMaxPieces)
             out.runs.push_back({piece.degree, static_cast<std::uint32_t>(out.pieces.size()), 0});
         out.pieces.push_back(piece);
         ++out.runs.back().pieces;

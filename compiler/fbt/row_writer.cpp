@@ -7,22 +7,41 @@ namespace fetexc {
 
 using namespace fetex;
 
+namespace {
+
+constexpr std::uint32_t kAlpha = 0xff000000u;
+
+} // namespace
+
 void RowWriter::note_sample(const RegionSample& s) {
-    out_.traits.translucent = out_.traits.translucent || (s.rgba >> 24) != 255;
-    out_.traits.interpolated = out_.traits.interpolated || s.mask != 0;
+    out_.traits.translucent |= s.model == kFbtModelSolid && s.rgba < kAlpha;
+    out_.traits.corners |= s.model == kFbtModelCorners;
+}
+
+void RowWriter::count_region(const RegionSample& s) {
     ++out_.stats.regions;
-    if (s.mask != 0) ++out_.stats.regions_interpolated;
+    if (s.model != kFbtModelSolid) ++out_.stats.regions_interpolated;
 }
 
-void RowWriter::write_empty(std::uint32_t representative, const RegionSample& sample) {
+void RowWriter::write_whole(const RegionSample& sample) {
     note_sample(sample);
+    count_region(sample);
     ++out_.stats.texels_empty;
-    out_.texels.push_back(representative);
-    out_.texels.push_back((kFbtKindEmpty << 30) | sample.mask);
+    const std::uint32_t c = sample.rgba;
+    std::uint32_t word = 0;
+    if (sample.model == kFbtModelSolid && c >= kAlpha) {
+        word = (c & 0xffffffu) | kFbtOpaque;
+    } else if (sample.model == kFbtModelCorners) {
+        word = (kFbtKindShaded << 30) | (kFbtModelCorners << 28);
+    } else if (sample.model == kFbtModelPatch || c != 0) {
+        const std::array<std::uint32_t, 4> flat{c, c, c, c};
+        word = (kFbtKindShaded << 30) | (kFbtModelPatch << 28) |
+               write_patch(sample.model == kFbtModelPatch ? sample.patch : flat);
+    }
+    out_.texels.push_back(word);
 }
 
-void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features,
-                            std::uint32_t first_vertex) {
+void RowWriter::write_texel(const TexelMap& texel, const TexelFeatures& features, std::uint32_t first_vertex) {
     first_vertex_ = first_vertex;
     samples_.clear();
     written_.clear();
@@ -31,34 +50,67 @@ void RowWriter::write_texel(std::uint32_t representative, const TexelMap& texel,
         samples_.push_back(sampler_.region(texel, features, r));
     prepare(texel, features);
     count_slivers();
-    // Everything collapsed. Where the collapsed sliver held the corner, the representative sample isn't the texel's
-    // own: a lone terminator then carries it.
-    if (bands_.size() == 1 && bands_[0].features == 0 && bands_[0].rest == features.corner_region) {
-        return write_empty(representative, samples_[bands_[0].rest]);
-    }
+    // Everything collapsed. Where the collapsed sliver held the corner, a lone rest stands for the region.
+    if (bands_.size() == 1 && bands_[0].features == 0 && bands_[0].rest == features.corner_region)
+        return write_whole(samples_[bands_[0].rest]);
+    ready_samples();
     for (const RegionSample& s : samples_)
-        note_sample(s);
+        count_region(s);
     ++(samples_.size() == 2 ? out_.stats.texels_two_regions : out_.stats.texels_more_regions);
-    out_.texels.push_back(representative);
+    lists_.clear();
+    for (const ReadyBand& b : bands_)
+        lists_.push_back(write_band(b));
     if (bands_.size() == 1) {
-        out_.texels.push_back((kFbtKindSingle << 30) | write_band(bands_[0]));
-        return;
+        out_.texels.push_back((kFbtKindSingle << 30) | lists_[0]);
+    } else {
+        out_.texels.push_back((kFbtKindBanded << 30) | next_record());
+        write_directory();
     }
+}
+
+void RowWriter::write_directory() {
+    const auto n = static_cast<std::uint32_t>(bands_.size());
     out_.traits.bands = true;
-    out_.traits.max_bands = std::max(out_.traits.max_bands, static_cast<std::uint32_t>(bands_.size()));
+    out_.traits.max_bands = std::max(out_.traits.max_bands, n);
     ++out_.stats.texels_banded;
-    out_.stats.bands += bands_.size();
-    directory_ = {static_cast<std::uint32_t>(bands_.size()), 0};
-    for (const ReadyBand& b : bands_) {
-        directory_.push_back(b.y_end);
-        directory_.push_back(write_band(b));
+    out_.stats.bands += n;
+    out_.records.push_back(n);
+    for (std::uint32_t k = 0; k < n; k += 2)
+        out_.records.push_back(bands_[k].y_end | (k + 1 < n ? bands_[k + 1].y_end << 16 : 0));
+    for (const std::uint32_t list : lists_) {
+        out_.record_indices.push_back(next_word());
+        out_.records.push_back(list);
     }
-    const std::uint32_t address = next_record();
-    for (std::size_t k = 0; k < bands_.size(); ++k)
-        out_.relocate.push_back(static_cast<std::uint32_t>(out_.records.size() + 3 + 2 * k));
-    out_.records.insert(out_.records.end(), directory_.begin(), directory_.end());
-    out_.records.resize((out_.records.size() + 3) / 4 * 4, 0);
-    out_.texels.push_back((kFbtKindBanded << 30) | address);
+    end_record();
+}
+
+std::uint32_t RowWriter::write_patch(const std::array<std::uint32_t, 4>& patch) {
+    out_.traits.patches = true;
+    for (const std::uint32_t c : patch)
+        out_.traits.translucent |= c < kAlpha;
+    const std::uint32_t at = next_word();
+    if (const std::optional<std::uint32_t> equal = patches_.find_or_add(patch, at, out_.records)) return *equal / 4;
+    out_.records.insert(out_.records.end(), patch.begin(), patch.end());
+    return at / 4;
+}
+
+/// In the order in which the bands name the regions, which does not depend on how faces were numbered.
+void RowWriter::ready_samples() {
+    ready_.assign(samples_.size(), {});
+    is_ready_.assign(samples_.size(), false);
+    for (const ReadyBand& b : bands_) {
+        for (const ReadyFeature& f : features_of(b))
+            ready_sample(f.region);
+        ready_sample(b.rest);
+    }
+}
+
+void RowWriter::ready_sample(std::uint32_t region) {
+    if (is_ready_[region]) return;
+    is_ready_[region] = true;
+    const RegionSample& s = samples_[region];
+    note_sample(s);
+    ready_[region] = {s.model, s.model == kFbtModelPatch ? write_patch(s.patch) : s.rgba};
 }
 
 bool RowWriter::same_runs(const ReadyFeature& a, const ReadyFeature& b) const {
@@ -123,67 +175,85 @@ void RowWriter::prepare(const TexelMap& texel, const TexelFeatures& features) {
 }
 
 std::uint32_t RowWriter::write_band(const ReadyBand& band) {
-    addresses_.clear();
-    for (const ReadyFeature& f : features_of(band)) {
-        for (const Run& run : runs_of(f))
-            addresses_.push_back(write_pieces(run));
-    }
     const std::uint32_t first = next_record();
-    std::size_t k = 0;
+    std::uint32_t entry = first, entries = 0;
     for (const ReadyFeature& f : features_of(band)) {
         ++out_.stats.features;
         out_.traits.directions |= 1u << f.ray;
         for (const Run& run : runs_of(f)) {
-            const bool last = &run == &runs_of(f).back();
+            end_record();
+            entry = next_record();
+            ++entries;
+            const bool last_run = &run == &runs_of(f).back();
+            const bool last = last_run && &f == &features_of(band).back();
             const auto degree = static_cast<std::uint32_t>(run.degree);
             out_.traits.degrees |= 1u << degree;
             out_.traits.max_degree = std::max(out_.traits.max_degree, degree);
-            write_entry(addresses_[k++], run.pieces | (degree << 16) | (f.ray << 18) | (last ? kFbtEntryLastRun : 0),
-                        f.region, last);
+            write_run(run,
+                      run.pieces | (degree << 10) | (f.ray << 12) | (last_run ? kFbtEntryLastRun : 0) |
+                          (last ? kFbtEntryLast : 0),
+                      f.region, last_run);
         }
     }
-    write_entry(0, kFbtEntryTerminator, band.rest, true);
-    out_.traits.max_entries = std::max(out_.traits.max_entries, next_record() - first);
+    if (entries == 0) {
+        for (const std::uint32_t word : {kFbtEntryLastRun | kFbtEntryLast, 0u, 0u})
+            out_.records.push_back(word);
+        entries = 1;
+    }
+    write_rest(entry, band.rest);
+    out_.traits.max_entries = std::max(out_.traits.max_entries, entries);
     return first;
 }
 
-void RowWriter::write_entry(std::uint32_t address, std::uint32_t word1, std::uint32_t region, bool last) {
-    if ((word1 & kFbtEntryTerminator) == 0) out_.relocate.push_back(static_cast<std::uint32_t>(out_.records.size()));
-    if (last) out_.entries.push_back({next_record(), results_[region], first_vertex_ + region});
-    const RegionSample s = last ? samples_[region] : RegionSample{};
-    out_.records.insert(out_.records.end(), {address, word1, s.rgba, s.mask});
+void RowWriter::note_region(std::uint32_t entry, bool rest, std::uint32_t region) {
+    out_.entries.push_back({entry, rest, results_[region], first_vertex_ + region});
 }
 
-/// Piece records of a run; a run that this texel has already (in another band) is shared.
-std::uint32_t RowWriter::write_pieces(const Run& run) {
+void RowWriter::write_rest(std::uint32_t entry, std::uint32_t region) {
+    const ReadySample s = ready_[region];
+    out_.records[std::size_t{4} * entry] |= s.model << 18;
+    if (s.model == kFbtModelPatch) out_.record_indices.push_back(next_word());
+    out_.records.push_back(s.word);
+    end_record();
+    note_region(entry, true, region);
+}
+
+/// A run whose points this texel has already (in another band) refers to them, where that is shorter.
+void RowWriter::write_run(const Run& run, std::uint32_t word0, std::uint32_t region, bool last_run) {
+    const ReadySample s = last_run ? ready_[region] : ReadySample{};
+    const std::uint32_t entry = next_record();
     words_.clear();
     for (const Piece& p : runs_.pieces_of(run)) {
-        if (run.degree == 1) {
-            if (words_.empty()) words_.push_back(p.p[0]);
-            words_.push_back(p.p[1]);
-        } else {
-            for (int i = 0; i < 4; ++i)
-                words_.push_back(i <= run.degree ? p.p[i] : 0);
-        }
+        if (words_.empty()) words_.push_back(p.p[0]);
+        words_.insert(words_.end(), p.p.begin() + 1, p.p.begin() + 1 + run.degree);
     }
-    words_.resize((words_.size() + 3) / 4 * 4, 0);
-    const std::uint32_t record = next_record();
-    if (const std::optional<std::uint32_t> equal = written_.find_or_add(words_, record, out_.records)) {
+    word0 |= s.model << 16;
+    const FbtEntry own(word0), other(word0 | kFbtEntryShared);
+    const bool shorter = other.records() < own.records();
+    const std::uint32_t equal =
+        shorter ? written_.find_or_add(words_, next_word() + 2, out_.records).value_or(kNone) : kNone;
+    out_.records.push_back(equal != kNone ? word0 | kFbtEntryShared : word0);
+    if (s.model == kFbtModelPatch) out_.record_indices.push_back(next_word());
+    out_.records.push_back(s.word);
+    if (equal != kNone) {
         ++out_.stats.runs_shared;
-        return *equal;
+        out_.traits.shared = true;
+        out_.word_indices.push_back(next_word());
+        out_.records.push_back(equal);
+    } else {
+        out_.stats.pieces += run.pieces;
+        out_.records.insert(out_.records.end(), words_.begin(), words_.end());
     }
-    out_.stats.pieces += run.pieces;
-    out_.records.insert(out_.records.end(), words_.begin(), words_.end());
-    return record;
+    if (last_run) note_region(entry, false, region);
 }
 
-void WrittenRuns::clear() {
+void WrittenWords::clear() {
     if (entries_.empty()) return;
     entries_.clear();
     slots_.assign(16, 0);
 }
 
-void WrittenRuns::grow() {
+void WrittenWords::grow() {
     slots_.assign(std::max<std::size_t>(16, 2 * slots_.size()), 0);
     for (std::uint32_t e = 0; e < entries_.size(); ++e) {
         std::size_t slot = entries_[e].hash & (slots_.size() - 1);
@@ -193,8 +263,8 @@ void WrittenRuns::grow() {
     }
 }
 
-std::optional<std::uint32_t> WrittenRuns::find_or_add(std::span<const std::uint32_t> words, std::uint32_t record,
-                                                      const std::vector<std::uint32_t>& records) {
+std::optional<std::uint32_t> WrittenWords::find_or_add(std::span<const std::uint32_t> words, std::uint32_t at,
+                                                       const std::vector<std::uint32_t>& records) {
     if (2 * (entries_.size() + 1) > slots_.size()) grow();
     std::uint64_t hash = 0x9e3779b97f4a7c15u;
     for (const std::uint32_t w : words) {
@@ -205,9 +275,9 @@ std::optional<std::uint32_t> WrittenRuns::find_or_add(std::span<const std::uint3
     for (; slots_[slot] != 0; slot = (slot + 1) & (slots_.size() - 1)) {
         const Entry& e = entries_[slots_[slot] - 1];
         if (e.hash != hash || e.words != words.size()) continue;
-        if (std::ranges::equal(words, std::span(records).subspan(std::size_t{4} * e.record, e.words))) return e.record;
+        if (std::ranges::equal(words, std::span(records).subspan(e.at, e.words))) return e.at;
     }
-    entries_.push_back({hash, record, words.size()});
+    entries_.push_back({hash, at, words.size()});
     slots_[slot] = static_cast<std::uint32_t>(entries_.size());
     return {};
 }

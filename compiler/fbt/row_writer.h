@@ -3,6 +3,7 @@
 /// parallel.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,33 +17,35 @@ namespace fetexc {
 
 /// What an entry stands for. Records and vertices are row-local until the rows are joined.
 struct RegionEntry {
-    std::uint32_t record = 0; ///< last run of a feature, or terminator
+    std::uint32_t record = 0; ///< the entry that decides, as fetex::FbtRegion has it
+    bool rest = false;
     ResultId result = 0;
     std::uint32_t vertex = 0; ///< of the reachability graph
 };
 
 struct RowOutput {
-    std::vector<std::uint32_t> texels;   ///< word 0, word 1 per texel; addresses row-local
-    std::vector<std::uint32_t> records;  ///< four words each
-    std::vector<std::uint32_t> relocate; ///< word indices in records that hold record addresses
+    std::vector<std::uint32_t> texels;         ///< addresses row-local
+    std::vector<std::uint32_t> records;        ///< four words each
+    std::vector<std::uint32_t> record_indices; ///< words of `records` that hold the index of a record
+    std::vector<std::uint32_t> word_indices;   ///< words of `records` that hold the index of a word
     std::vector<RegionEntry> entries;
     FbtStats stats;
     fetex::FbtTraits traits;
     std::vector<std::uint32_t> collapsed; ///< vertices of which nothing is left in their texel
 };
 
-/// The piece records of a texel, to find equal ones.
-class WrittenRuns {
+/// Sequences of words in the records, to find equal ones.
+class WrittenWords {
   public:
     void clear();
-    /// The record of an equal run; none: these words, about to be written at `record`, are new.
-    std::optional<std::uint32_t> find_or_add(std::span<const std::uint32_t> words, std::uint32_t record,
+    /// Where an equal sequence begins; none: these words, about to be written from word `at` on, are new.
+    std::optional<std::uint32_t> find_or_add(std::span<const std::uint32_t> words, std::uint32_t at,
                                              const std::vector<std::uint32_t>& records);
 
   private:
     struct Entry {
         std::uint64_t hash = 0;
-        std::uint32_t record = 0;
+        std::uint32_t at = 0;
         std::size_t words = 0;
     };
     void grow();
@@ -56,10 +59,10 @@ class RowWriter {
     RowWriter(const PlanarMap& map, const RegionSampler& sampler, RowOutput& out)
         : map_(map), sampler_(sampler), out_(out) {}
 
-    void write_empty(std::uint32_t representative, const RegionSample& sample);
+    /// A texel of one region.
+    void write_whole(const RegionSample& sample);
     /// first_vertex: of the texel's regions in the row's reachability graph.
-    void write_texel(std::uint32_t representative, const TexelMap& texel, const TexelFeatures& features,
-                     std::uint32_t first_vertex);
+    void write_texel(const TexelMap& texel, const TexelFeatures& features, std::uint32_t first_vertex);
 
   private:
     /// A feature that didn't vanish.
@@ -84,23 +87,40 @@ class RowWriter {
     void count_slivers();
     void prepare(const TexelMap& texel, const TexelFeatures& features);
     std::uint32_t write_band(const ReadyBand& band);
-    std::uint32_t write_pieces(const Run& run);
-    void write_entry(std::uint32_t address, std::uint32_t word1, std::uint32_t region, bool last);
-    [[nodiscard]] std::uint32_t next_record() const { return static_cast<std::uint32_t>(out_.records.size() / 4); }
-    void note_sample(const RegionSample& sample);
+    void write_directory();
+    void write_run(const Run& run, std::uint32_t word0, std::uint32_t region, bool last_run);
+    void write_rest(std::uint32_t entry, std::uint32_t region);
+    void end_record() { out_.records.resize((out_.records.size() + 3) / 4 * 4, 0); }
+    void note_region(std::uint32_t entry, bool rest, std::uint32_t region);
+    /// The patch's record.
+    std::uint32_t write_patch(const std::array<std::uint32_t, 4>& patch);
+    /// Patches are in the records then.
+    void ready_samples();
+    void ready_sample(std::uint32_t region);
+    [[nodiscard]] std::uint32_t next_word() const { return static_cast<std::uint32_t>(out_.records.size()); }
+    [[nodiscard]] std::uint32_t next_record() const { return next_word() / 4; }
+    void note_sample(const RegionSample& sample); ///< in the traits
+    void count_region(const RegionSample& sample);
 
     const PlanarMap& map_;
     const RegionSampler& sampler_;
     RowOutput& out_;
+    /// Model and sample word of a region.
+    struct ReadySample {
+        std::uint32_t model = 0, word = 0;
+    };
+
     std::vector<RegionSample> samples_;
+    std::vector<ReadySample> ready_; ///< as samples_
     std::vector<ResultId> results_;
     std::uint32_t first_vertex_ = 0;
-    WrittenRuns written_;
+    WrittenWords written_; ///< runs of the texel
+    WrittenWords patches_; ///< of the row
     std::vector<ReadyBand> bands_;
     std::vector<ReadyFeature> features_;
     PieceRuns runs_;
-    std::vector<std::uint32_t> words_, addresses_, directory_;
-    std::vector<bool> left_;
+    std::vector<std::uint32_t> words_, lists_;
+    std::vector<bool> left_, is_ready_;
 };
 
 } // namespace fetexc

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "formats/validate.h"
 
 namespace fetexc {
 namespace {
@@ -15,10 +18,15 @@ std::uint32_t pack_channel(double v) {
 
 std::array<double, 4> channels(const Rgba& c) { return {c.r, c.g, c.b, c.a}; }
 
-/// A point of a region and the area it stands for; texel-local for weights, planar for the paint.
+/// A point of a region, texel-local, the area it stands for, and the paint there.
 struct QuadraturePoint {
-    double x, y, weight;
+    double x, y, area;
+    Rgba paint;
 };
+
+std::array<double, 4> corner_weights(double x, double y) {
+    return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+}
 
 } // namespace
 
@@ -40,6 +48,18 @@ CornerResults::CornerResults(const PlanarMap& map, const Scene& scene, Composito
         map.along_row(static_cast<std::uint32_t>(j),
                       [&](std::uint32_t i, const Windings& w) { results_[j * columns + i] = lookup(w); });
     });
+    constexpr std::uint64_t corners_of_a_patch = 4;
+    worth_storing_ =
+        std::max(columns, rows) <= fetex::kFbtMaxSide && corners_of_a_patch * texels_surrounded() > columns * rows;
+}
+
+std::uint64_t CornerResults::texels_surrounded() const {
+    std::uint64_t n = 0;
+    for (std::uint32_t j = 0; j < map_.grid().height; ++j) {
+        for (std::uint32_t i = 0; i < width_; ++i)
+            n += !compositor_.is_solid(at(i, j)) && surround(i, j, at(i, j)) ? 1 : 0;
+    }
+    return n;
 }
 
 Rgba CornerResults::color(std::uint32_t i, std::uint32_t j) const {
@@ -48,31 +68,36 @@ Rgba CornerResults::color(std::uint32_t i, std::uint32_t j) const {
                              to_canvas(scene_, g, static_cast<double>(g.px * i), static_cast<double>(g.py * j)));
 }
 
-std::uint32_t CornerResults::rgba(std::uint32_t i, std::uint32_t j) const { return pack_rgba8(color(i, j)); }
-
-/// FBT §4.6: which sample stands at each corner; a corner out of reach takes the closest one that isn't (Fig. 6).
-std::uint32_t RegionSampler::mask_for(std::uint32_t i, std::uint32_t j, ResultId result) const {
-    if (compositor_.is_solid(result)) return 0;
-    // A neighbour's representative sample can be used when it shows the same result: it is then a value of the same
-    // paint, and every region reachable without crossing a visible edge (§4.4) does.
-    const bool right = corners_.at(i + 1, j) == result, up = corners_.at(i, j + 1) == result,
-               diagonal = corners_.at(i + 1, j + 1) == result;
-    const std::uint32_t c1 = right ? 1 : 0;
-    const std::uint32_t c2 = up ? 2 : 0;
-    const std::uint32_t c3 = diagonal ? 3 : right ? 1 : up ? 2 : 0;
-    return (c1 << 2) | (c2 << 4) | (c3 << 6);
+Rgba RegionSampler::paint_at(ResultId result, double x, double y) const {
+    return compositor_.color(result, to_canvas(scene_, map_.grid(), x, y));
 }
+
+std::array<Rgba, 4> RegionSampler::corner_paints(std::uint32_t i, std::uint32_t j, ResultId result) const {
+    const Grid& g = map_.grid();
+    const auto x0 = static_cast<double>(g.px * i), y0 = static_cast<double>(g.py * j);
+    const double x1 = x0 + static_cast<double>(g.px), y1 = y0 + static_cast<double>(g.py);
+    return {paint_at(result, x0, y0), paint_at(result, x1, y0), paint_at(result, x0, y1), paint_at(result, x1, y1)};
+}
+
+namespace {
+
+RegionSample solid(const Rgba& c) { return {fetex::kFbtModelSolid, pack_rgba8(c), {}}; }
+
+/// A patch of four equal corners is a colour.
+RegionSample patch(const std::array<Rgba, 4>& c) {
+    const RegionSample s{
+        fetex::kFbtModelPatch, 0, {pack_rgba8(c[0]), pack_rgba8(c[1]), pack_rgba8(c[2]), pack_rgba8(c[3])}};
+    const bool equal = s.patch[0] == s.patch[1] && s.patch[0] == s.patch[2] && s.patch[0] == s.patch[3];
+    return equal ? RegionSample{fetex::kFbtModelSolid, s.patch[0], {}} : s;
+}
+
+} // namespace
 
 RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const {
-    return {corners_.rgba(i, j), mask_for(i, j, corners_.at(i, j))};
-}
-
-RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const {
-    const ResultId result = features.region_result[r];
-    if (compositor_.is_solid(result)) return {pack_rgba8(compositor_.color(result, {})), 0};
-    if (r == features.corner_region) return whole(texel.i, texel.j);
-    const std::uint32_t mask = mask_for(texel.i, texel.j, result);
-    return {pack_rgba8(fit(texel, features, r, mask)), mask};
+    const ResultId result = corners_.at(i, j);
+    if (compositor_.is_solid(result)) return solid(compositor_.color(result, {}));
+    if (corners_.worth_storing() && corners_.surround(i, j, result)) return {fetex::kFbtModelCorners, 0, {}};
+    return patch(corner_paints(i, j, result));
 }
 
 namespace {
@@ -83,66 +108,141 @@ double x_on(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge, dou
     return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
 }
 
-/// Two levels of three points in every trapezoid of the region, weighted by area.
-std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features,
-                                        std::uint32_t r) {
-    const Grid& g = map.grid();
-    const double left = static_cast<double>(g.px * texel.i), top = static_cast<double>(g.py * texel.j);
-    const double right = left + static_cast<double>(g.px), bottom = top + static_cast<double>(g.py);
-    std::vector<QuadraturePoint> points;
+/// A trapezoid of a region and its levels.
+struct Slab {
+    const Trapezoid* trapezoid;
+    double y0, y1;
+};
+
+std::vector<Slab> slabs_of(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features,
+                           std::uint32_t r) {
+    const auto py = static_cast<double>(map.grid().py);
+    std::vector<Slab> slabs;
     for (const Trapezoid& t : texel.sweep.trapezoids) {
         if (features.region_of_face[t.face] != r) continue;
-        const double y0 = t.top_node == kNone ? top : map.node(texel.graph.nodes[t.top_node]).y;
-        const double y1 = t.bottom_node == kNone ? bottom : map.node(texel.graph.nodes[t.bottom_node]).y;
-        if (!(y1 > y0)) continue;
-        for (const double v : {0.25, 0.75}) {
-            const double y = y0 + v * (y1 - y0);
-            const double x0 = x_on(map, texel, t.left, y, left), x1 = x_on(map, texel, t.right, y, right);
+        const double y0 = t.top_node == kNone ? py * texel.j : map.node(texel.graph.nodes[t.top_node]).y;
+        const double y1 = t.bottom_node == kNone ? py * (texel.j + 1) : map.node(texel.graph.nodes[t.bottom_node]).y;
+        if (y1 > y0) slabs.push_back({&t, y0, y1});
+    }
+    return slabs;
+}
+
+/// Three points in every stretch that the region has on each of kLevels levels, evenly spread over its height. Where
+/// edges without a visible result cut it makes no difference: what touches is one stretch.
+std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features,
+                                        std::uint32_t r) {
+    constexpr int kLevels = 8;
+    const Grid& g = map.grid();
+    const auto px = static_cast<double>(g.px), py = static_cast<double>(g.py);
+    const double left = px * texel.i, right = left + px;
+    const std::vector<Slab> slabs = slabs_of(map, texel, features, r);
+    double top = INFINITY, bottom = -INFINITY;
+    for (const Slab& s : slabs)
+        top = std::min(top, s.y0), bottom = std::max(bottom, s.y1);
+    std::vector<QuadraturePoint> points;
+    std::vector<std::pair<double, double>> stretches;
+    for (int k = 0; k < kLevels; ++k) {
+        const double y = top + (k + 0.5) / kLevels * (bottom - top);
+        stretches.clear();
+        for (const Slab& s : slabs) {
+            if (!(s.y0 <= y && y < s.y1)) continue;
+            stretches.emplace_back(x_on(map, texel, s.trapezoid->left, y, left),
+                                   x_on(map, texel, s.trapezoid->right, y, right));
+        }
+        std::sort(stretches.begin(), stretches.end());
+        for (std::size_t n = 0; n < stretches.size();) {
+            const double x0 = stretches[n].first;
+            double x1 = stretches[n].second;
+            while (++n < stretches.size() && stretches[n].first <= x1)
+                x1 = std::max(x1, stretches[n].second);
             if (!(x1 > x0)) continue;
-            for (const double u : {1.0 / 6, 0.5, 5.0 / 6})
-                points.push_back({x0 + u * (x1 - x0), y, (x1 - x0) * (y1 - y0)});
+            for (const double u : {1.0 / 6, 0.5, 5.0 / 6}) {
+                const double area = (x1 - x0) * (bottom - top) / (px * py * kLevels);
+                points.push_back({(x0 + u * (x1 - x0)) / px - texel.i, y / py - texel.j, area, Rgba{}});
+            }
         }
     }
     return points;
 }
 
+/// The interpolated colour is within a step of 8 bits of the paint at all points.
+bool fits(const std::array<Rgba, 4>& corners, const std::vector<QuadraturePoint>& points) {
+    return std::ranges::all_of(points, [&](const QuadraturePoint& q) {
+        const std::array<double, 4> weight = corner_weights(q.x, q.y), paint = channels(q.paint);
+        for (std::size_t c = 0; c < 4; ++c) {
+            double sum = -paint[c];
+            for (std::size_t k = 0; k < 4; ++k)
+                sum += weight[k] * channels(corners[k])[c];
+            if (std::fabs(sum) > budget::kPatchTolerance) return false;
+        }
+        return true;
+    });
+}
+
+/// Solves the symmetric positive definite 4×4 system for four right sides at once (Gauss, diagonal pivots).
+std::array<std::array<double, 4>, 4> solve(std::array<std::array<double, 4>, 4> a,
+                                           std::array<std::array<double, 4>, 4> b) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (i == k) continue;
+            const double f = a[i][k] / a[k][k];
+            for (std::size_t c = 0; c < 4; ++c)
+                a[i][c] -= f * a[k][c], b[i][c] -= f * b[k][c];
+        }
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (double& v : b[k])
+            v /= a[k][k];
+    }
+    return b;
+}
+
+/// Minimises Σ area·(interpolated − paint)² and, for corners of which the region says little, their distance from the
+/// mean, with a weight of kPatchRidge.
+std::array<Rgba, 4> least_squares(const std::vector<QuadraturePoint>& points) {
+    std::array<std::array<double, 4>, 4> a{}, b{};
+    std::array<double, 4> mean{};
+    double area = 0;
+    for (const QuadraturePoint& q : points) {
+        const std::array<double, 4> weight = corner_weights(q.x, q.y), paint = channels(q.paint);
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t n = 0; n < 4; ++n) {
+                a[k][n] += q.area * weight[k] * weight[n];
+                b[k][n] += q.area * weight[k] * paint[n];
+            }
+            mean[k] += q.area * paint[k];
+        }
+        area += q.area;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        a[k][k] += budget::kPatchRidge * area;
+        for (std::size_t c = 0; c < 4; ++c)
+            b[k][c] += budget::kPatchRidge * mean[c];
+    }
+    const auto corner = solve(a, b);
+    std::array<Rgba, 4> out;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double alpha = std::clamp(corner[k][3], 0.0, 1.0);
+        const auto color = [&](std::size_t c) { return std::clamp(corner[k][c], 0.0, alpha); };
+        out[k] = {color(0), color(1), color(2), alpha};
+    }
+    return out;
+}
+
 } // namespace
 
-/// Minimises Σ weight·(interpolated − paint)² over the own sample, channel by channel: it enters with the sum of the
-/// bilinear weights of the corners it stands at.
-Rgba RegionSampler::fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r,
-                        std::uint32_t mask) const {
-    const Grid& g = map_.grid();
+RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const {
     const ResultId result = features.region_result[r];
-    const std::array<std::array<double, 4>, 4> sample{
-        std::array<double, 4>{}, channels(corners_.color(texel.i + 1, texel.j)),
-        channels(corners_.color(texel.i, texel.j + 1)), channels(corners_.color(texel.i + 1, texel.j + 1))};
-    std::array<double, 4> numerator{};
-    double denominator = 0;
-    for (const QuadraturePoint& q : quadrature(map_, texel, features, r)) {
-        const double fx = q.x / static_cast<double>(g.px) - texel.i, fy = q.y / static_cast<double>(g.py) - texel.j;
-        const std::array<double, 4> weight{(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
-        const std::array<double, 4> paint = channels(compositor_.color(result, to_canvas(scene_, g, q.x, q.y)));
-        double own = 0;
-        std::array<double, 4> others{};
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const std::uint32_t which = (mask >> (2 * k)) & 3;
-            if (which == 0) own += weight[k];
-            for (int c = 0; c < 4 && which != 0; ++c)
-                others[c] += weight[k] * sample[which][c];
-        }
-        denominator += q.weight * own * own;
-        for (int c = 0; c < 4; ++c)
-            numerator[c] += q.weight * own * (paint[c] - others[c]);
+    if (compositor_.is_solid(result)) return solid(compositor_.color(result, {}));
+    if (corners_.worth_storing() && corners_.surround(texel.i, texel.j, result))
+        return {fetex::kFbtModelCorners, 0, {}};
+    const std::array<Rgba, 4> paints = corner_paints(texel.i, texel.j, result);
+    std::vector<QuadraturePoint> points = quadrature(map_, texel, features, r);
+    for (QuadraturePoint& q : points) {
+        q.paint = paint_at(result, static_cast<double>(map_.grid().px) * (texel.i + q.x),
+                           static_cast<double>(map_.grid().py) * (texel.j + q.y));
     }
-    if (!(denominator > 0)) {
-        return compositor_.color(result, to_canvas(scene_, g, static_cast<double>(g.px) * (texel.i + 0.5),
-                                                   static_cast<double>(g.py) * (texel.j + 0.5)));
-    }
-    const auto value = [&](int c) { return numerator[c] / denominator; };
-    const double a = std::clamp(value(3), 0.0, 1.0);
-    const auto color = [&](int c) { return std::clamp(value(c), 0.0, a); };
-    return {color(0), color(1), color(2), a};
+    return patch(fits(paints, points) ? paints : least_squares(points));
 }
 
 } // namespace fetexc

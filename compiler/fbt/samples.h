@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Samples and availability masks of texel regions (FBT §4.6).
+/// How the regions of texels are coloured (FBT §4.6; models: formats/fbt.h).
 #pragma once
 
 #include <array>
@@ -11,29 +11,37 @@
 namespace fetexc {
 
 struct RegionSample {
-    std::uint32_t rgba = 0; ///< premultiplied RGBA8, R low
-    std::uint32_t mask = 0;
+    std::uint32_t model = 0;              ///< fetex::kFbtModel…
+    std::uint32_t rgba = 0;               ///< solid: premultiplied RGBA8, R low
+    std::array<std::uint32_t, 4> patch{}; ///< corners (0,0), (1,0), (0,1), (1,1) of the texel
 };
 
 std::uint32_t pack_rgba8(const Rgba& premultiplied);
 
-/// The visible result at every texel's corner, (width+1)×(height+1): the texels' representative samples and the apron.
+/// The visible result at every texel's corner, (width+1)×(height+1).
 class CornerResults {
   public:
     CornerResults(const PlanarMap& map, const Scene& scene, Compositor& compositor, unsigned threads);
     [[nodiscard]] ResultId at(std::uint32_t i, std::uint32_t j) const {
         return results_[static_cast<std::size_t>(j) * (width_ + 1) + i];
     }
-    /// Representative sample: the colour at the corner itself.
-    [[nodiscard]] std::uint32_t rgba(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] Rgba color(std::uint32_t i, std::uint32_t j) const;
+    /// All four corners of a texel show this result.
+    [[nodiscard]] bool surround(std::uint32_t i, std::uint32_t j, ResultId result) const {
+        return at(i, j) == result && at(i + 1, j) == result && at(i, j + 1) == result && at(i + 1, j + 1) == result;
+    }
+    /// Stored once, the corners take fewer bytes than patches in all texels that they surround with one gradient.
+    [[nodiscard]] bool worth_storing() const { return worth_storing_; }
 
   private:
+    [[nodiscard]] std::uint64_t texels_surrounded() const;
+
     const PlanarMap& map_;
     const Scene& scene_;
     Compositor& compositor_;
     std::uint32_t width_ = 0;
     std::vector<ResultId> results_;
+    bool worth_storing_ = false;
 };
 
 CanvasPoint to_canvas(const Scene& scene, const Grid& grid, double x, double y);
@@ -45,14 +53,14 @@ class RegionSampler {
 
     /// Region of an empty texel.
     [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const;
-    /// Region r of a texel. The region that holds the corner (i,j) takes the point sample there; any other the sample
-    /// that fits its paint best in the least-squares sense over the region, given which neighbours it may use.
+    /// Region r of a texel. A gradient goes on beyond the region to the texel's corners, so that it has no steps from
+    /// texel to texel; where that is more than a step of 8 bits off inside the region (the paint bends, or ends,
+    /// between it and a corner), the patch that fits best in the least-squares sense.
     [[nodiscard]] RegionSample region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const;
 
   private:
-    [[nodiscard]] std::uint32_t mask_for(std::uint32_t i, std::uint32_t j, ResultId result) const;
-    [[nodiscard]] Rgba fit(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r,
-                           std::uint32_t mask) const;
+    [[nodiscard]] Rgba paint_at(ResultId result, double x, double y) const;
+    [[nodiscard]] std::array<Rgba, 4> corner_paints(std::uint32_t i, std::uint32_t j, ResultId result) const;
 
     const PlanarMap& map_;
     const Scene& scene_;

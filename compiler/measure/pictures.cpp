@@ -14,7 +14,7 @@ Rgba FbtPicture::at(TexturePoint p) const {
 }
 
 std::uint64_t FbtPicture::gpu_bytes() const {
-    return (texture_.texels.size() + texture_.records.size()) * sizeof(std::uint32_t);
+    return fetex::fbt_gpu_bytes(texture_);
 }
 
 BitmapPicture::BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filter filter)

@@ -9,6 +9,8 @@ namespace {
 
 using Log = std::array<char, 4096>;
 
+constexpr GLuint kTargetUnit = 3; ///< no sampler uses it
+
 Outcome<GLuint> compile(const GladGLContext& gl, GLenum stage, const std::string& source) {
     const GLuint shader = gl.CreateShader(stage);
     const char* text = source.c_str();
@@ -82,7 +84,7 @@ GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format
 Outcome<Target> make_target(const GladGLContext& gl, GLenum internal_format, std::uint32_t side) {
     Target target;
     const GLenum type = internal_format == GL_RGBA32F ? GL_FLOAT : GL_UNSIGNED_BYTE;
-    target.texture = make_texture(gl, 2, internal_format, side, side, GL_RGBA, type, nullptr);
+    target.texture = make_texture(gl, kTargetUnit, internal_format, side, side, GL_RGBA, type, nullptr);
     gl.GenFramebuffers(1, &target.framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);

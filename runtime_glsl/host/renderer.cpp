@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t kRecordColumns = 2048; ///< as fetex_fbt.glsl reads them
 constexpr double kBitmapShift = 0.5;           ///< texels; a bitmap's sample stands in the middle of its texel
 
-// Texture units; 2 is the render target's while it is made.
-constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kBitmapUnit = 0, kFieldUnit = 0;
+// Texture units, as the shaders' bindings have them; 3 is the render target's while it is made.
+constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kCornerUnit = 2, kBitmapUnit = 0, kFieldUnit = 0;
 
 /// A sampler's program, and the texture that its grid is laid over.
 struct Layer {
@@ -58,7 +58,7 @@ struct Renderer::State {
     GLuint vertex_array = 0;
     Target target;
     Program fbt_program, bitmap_program, filtered_program, field_program;
-    GLuint texel_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0, field_texture = 0;
+    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0, field_texture = 0;
     std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
@@ -101,21 +101,22 @@ RuntimeStatus Renderer::State::check_limits(const FbtTexture& texture) const {
     const std::size_t records = texture.records.size() / 4;
     const std::size_t most =
         options.texture_buffer ? static_cast<std::size_t>(max_buffer_texels) : std::size_t{kRecordColumns} * side;
-    if (texture.width + texture.apron <= side && texture.height + texture.apron <= side && records <= most)
-        return std::nullopt;
+    const std::uint32_t corners = texture.corners.empty() ? 0 : 1;
+    if (texture.width + corners <= side && texture.height + corners <= side && records <= most) return std::nullopt;
     return RuntimeError{RuntimeErrc::TextureTooLarge,
                         "this device takes textures of " + std::to_string(side) + " texels a side and " +
-                            std::to_string(most) + " records; with its apron this one has " +
-                            std::to_string(texture.width + texture.apron) + "x" +
-                            std::to_string(texture.height + texture.apron) + " and " + std::to_string(records)};
+                            std::to_string(most) + " records; this one needs " +
+                            std::to_string(texture.width + corners) + "x" + std::to_string(texture.height + corners) +
+                            " and " + std::to_string(records)};
 }
 
 void Renderer::State::delete_fbt() {
     gl().DeleteTextures(1, &texel_texture);
+    gl().DeleteTextures(1, &corner_texture);
     gl().DeleteTextures(1, &record_texture);
     gl().DeleteBuffers(1, &record_buffer);
     if (fbt_program.id != 0) gl().DeleteProgram(fbt_program.id);
-    texel_texture = record_texture = record_buffer = 0;
+    texel_texture = corner_texture = record_texture = record_buffer = 0;
     fbt_program = {};
 }
 
@@ -152,14 +153,18 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     if (auto bad = check_limits(texture)) return bad;
     auto program = build_program(gl(), view_vertex_source(options.dialect),
                                  fbt_fragment_source(options.dialect, texture, options.texture_buffer),
-                                 {"fetexFbtTexels", "fetexFbtRecords"});
+                                 {"fetexFbtTexels", "fetexFbtRecords", "fetexFbtCorners"});
     if (!program) return program.error();
     delete_fbt();
     fbt_program = program.value();
     fbt_width = texture.width;
     fbt_height = texture.height;
-    texel_texture = make_texture(gl(), kTexelUnit, GL_RG32UI, texture.width + texture.apron,
-                                 texture.height + texture.apron, GL_RG_INTEGER, GL_UNSIGNED_INT, texture.texels.data());
+    texel_texture = make_texture(gl(), kTexelUnit, GL_R32UI, texture.width, texture.height, GL_RED_INTEGER,
+                                 GL_UNSIGNED_INT, texture.texels.data());
+    if (!texture.corners.empty()) {
+        corner_texture = make_texture(gl(), kCornerUnit, GL_R32UI, texture.width + 1, texture.height + 1,
+                                      GL_RED_INTEGER, GL_UNSIGNED_INT, texture.corners.data());
+    }
     if (options.texture_buffer) {
         upload_record_buffer(texture);
     } else {
@@ -218,6 +223,8 @@ RuntimeStatus Renderer::State::upload_field(const Field& field) {
 void Renderer::State::bind_fbt() const {
     gl().ActiveTexture(GL_TEXTURE0 + kTexelUnit);
     gl().BindTexture(GL_TEXTURE_2D, texel_texture);
+    gl().ActiveTexture(GL_TEXTURE0 + kCornerUnit);
+    gl().BindTexture(GL_TEXTURE_2D, corner_texture);
     gl().ActiveTexture(GL_TEXTURE0 + kRecordUnit);
     gl().BindTexture(options.texture_buffer ? GL_TEXTURE_BUFFER : GL_TEXTURE_2D, record_texture);
 }

@@ -59,13 +59,13 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer) {
 
 std::string fbt_specialisation(const FbtTraits& traits) {
     return define("FETEX_FBT_FEATURES", traits.max_entries > 0) + define("FETEX_FBT_DEGREES", traits.degrees) +
-           define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_INTERPOLATED", traits.interpolated) +
+           define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_CORNERS", traits.corners) +
+           define("FETEX_FBT_PATCHES", traits.patches) + define("FETEX_FBT_SHARED", traits.shared) +
            define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions);
 }
 
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer) {
-    return shader_prelude(dialect, texture_buffer) + define("FETEX_FBT_APRON", texture.apron) +
-           fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl");
+    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl");
 }
 
 std::string view_vertex_source(Dialect dialect) { return shader_prelude(dialect) + file_text("view.vert.glsl"); }

@@ -25,7 +25,7 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 /// The macros that leave out of the sampler what an asset doesn't need. "" instead leaves everything in.
 std::string fbt_specialisation(const FbtTraits& traits);
 
-/// Prelude, specialisation and fetex_fbt.glsl, to be followed by a fragment shader. Only apron and traits of the
+/// Prelude, specialisation and fetex_fbt.glsl, to be followed by a fragment shader. Only the traits of the
 /// texture are looked at.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
 

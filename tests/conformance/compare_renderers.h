@@ -104,10 +104,10 @@ inline double within(double start, double size) { return size >= 1 ? start : std
 inline Comparison compare_at(const fetex::FbtTexture& texture, fetex::Renderer& renderer, double pixels_per_texel,
                              std::uint32_t side, std::uint32_t more, std::uint64_t seed) {
     std::vector<std::uint32_t> texels;
-    for (std::uint32_t j = 0; j < texture.height; ++j)
-        for (std::uint32_t i = 0; i < texture.width; ++i)
-            if (texture.texels[(std::size_t{j} * (texture.width + texture.apron) + i) * 2 + 1] >> 30 != 0)
-                texels.push_back(j * texture.width + i);
+    for (std::uint32_t k = 0; k < texture.texels.size(); ++k) {
+        const std::uint32_t kind = texture.texels[k] >> 30;
+        if (kind == fetex::kFbtKindSingle || kind == fetex::kFbtKindBanded) texels.push_back(k);
+    }
     if (texels.empty()) texels.push_back(0);
     const double extent = side / pixels_per_texel; // texels across the frame
     fetex::View view{0, 0, extent / texture.width, extent / texture.height};

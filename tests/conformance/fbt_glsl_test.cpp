@@ -69,7 +69,7 @@ class Conformance : public testing::TestWithParam<RendererOptions> {
 
 TEST_P(Conformance, equalsTheReferenceOnRandomTextures) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-        const FbtTexture texture = random_fbt(seed, {.width = 24, .height = 17, .apron = 1});
+        const FbtTexture texture = random_fbt(seed, {.width = 24, .height = 17});
         ASSERT_TRUE(fetex::validate_fbt(texture).empty());
         for (const double magnification : kMagnifications)
             expect_equal(texture, magnification, 192, seed);
@@ -82,13 +82,13 @@ TEST_P(Conformance, equalsTheReferenceOnRandomTextures) {
 
 /// Each trait switched off leaves code out of the shader; what stays must still be right.
 TEST_P(Conformance, equalsTheReferenceWhenSpecialised) {
-    for (std::uint32_t trait = 0; trait < 12; ++trait) {
+    for (std::uint32_t trait = 0; trait < 13; ++trait) {
         RandomFbtOptions options{.width = 9, .height = 9};
-        options.apron = trait % 2;
         if (trait < 4) options.degrees = (0b1110u & (2u << trait)) | (trait == 3 ? 0 : 0); // one degree, then none
         if (trait >= 4 && trait < 8) options.directions = 1u << (trait - 4);
         options.bands = trait != 8;
-        options.interpolated = trait != 9;
+        options.corners = trait != 9 && trait != 12;
+        options.patches = trait != 1 && trait != 12;
         options.translucent = trait != 10;
         if (trait == 11) options.max_features = 40;
         const FbtTexture texture = random_fbt(100 + trait, options);
@@ -100,7 +100,7 @@ TEST_P(Conformance, equalsTheReferenceWhenSpecialised) {
 
 /// fp32 has 10 bits left for the place in a texel at 16384; fixed point has 32.
 TEST_P(Conformance, staysSharpFarFromTheOrigin) {
-    const FbtTexture texture = random_fbt(7, {.width = 16384, .height = 3, .apron = 0});
+    const FbtTexture texture = random_fbt(7, {.width = 16384, .height = 3, .corners = false});
     ASSERT_FALSE(renderer_->upload(texture).has_value());
     const double extent = 192.0 / 512;
     for (const double i : {16383.0, 16000.25, 12345.0}) {

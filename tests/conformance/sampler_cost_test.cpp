@@ -8,39 +8,34 @@
 
 #include "formats/validate.h"
 #include "runtime_glsl/host/sampler_cost.h"
+#include "tests/support/fbt_maker.h"
 
 namespace fetexc::test {
 namespace {
 
 using namespace fetex;
 
-/// One feature across each of `percent` of the texels, the rest empty; all interpolated.
+/// One feature across each of `percent` of the texels, the rest of one region; all interpolated.
 FbtTexture simple_texture(std::uint32_t degree, std::uint32_t percent) {
     constexpr std::uint32_t kSide = 64;
     FbtTexture t;
     t.width = t.height = kSide;
-    t.apron = 1;
-    for (std::uint32_t j = 0; j <= kSide; ++j) {
-        for (std::uint32_t i = 0; i <= kSide; ++i) {
-            const bool inside = i < kSide && j < kSide;
-            const bool feature = inside && (i * 37 + j * 59) % 100 < percent;
-            t.texels.push_back(0xff000000u + i * 3 + (j * 3 << 8));
-            t.texels.push_back(feature ? kFbtKindSingle << 30 | static_cast<std::uint32_t>(t.records.size() / 4 + 1)
-                                       : (inside ? 0xe4u : 0u));
-            if (!feature) continue;
+    for (std::uint32_t k = 0; k < (kSide + 1) * (kSide + 1); ++k)
+        t.corners.push_back(0xff000000u + k % kSide * 3 + (k / kSide * 3 << 8));
+    const MadeRegion corners{kFbtModelCorners, 0};
+    for (std::uint32_t j = 0; j < kSide; ++j) {
+        for (std::uint32_t i = 0; i < kSide; ++i) {
+            if ((i * 37 + j * 59) % 100 >= percent) {
+                t.texels.push_back(shaded_texel(corners));
+                continue;
+            }
             const double x = 0.2 + 0.5 * ((i * 7 + j) % 16) / 16;
-            const std::uint32_t points[3][4] = {
-                {fbt_pack_point(x, 0), fbt_pack_point(x + 0.2, 1), 0, 0},
-                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.5), fbt_pack_point(x + 0.2, 1), 0},
-                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.4), fbt_pack_point(x + 0.1, 0.8),
-                 fbt_pack_point(x + 0.2, 1)}};
-            for (const std::uint32_t word : points[degree - 1])
-                t.records.push_back(word);
-            const auto piece = static_cast<std::uint32_t>(t.records.size() / 4 - 1);
-            for (const std::uint32_t word : {piece, 1u | degree << 16 | kFbtEntryLastRun, 0xff2040ffu, 0xe4u})
-                t.records.push_back(word);
-            for (const std::uint32_t word : {0u, kFbtEntryTerminator, 0xff00ff20u, 0xe4u})
-                t.records.push_back(word);
+            const std::vector<std::uint32_t> points[3] = {
+                {fbt_pack_point(x, 0), fbt_pack_point(x + 0.2, 1)},
+                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.5), fbt_pack_point(x + 0.2, 1)},
+                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.4), fbt_pack_point(x + 0.1, 0.8), fbt_pack_point(x + 0.2, 1)}};
+            const MadeRun run{degree, kFbtRayPosX, 1, points[degree - 1], 0, true, corners};
+            t.texels.push_back(kFbtKindSingle << 30 | append_list(t.records, {run}, corners));
         }
     }
     t.traits = fbt_traits(t);

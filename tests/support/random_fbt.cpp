@@ -7,6 +7,7 @@
 #include <random>
 
 #include "formats/validate.h"
+#include "tests/support/fbt_maker.h"
 
 namespace fetexc::test {
 namespace {
@@ -26,20 +27,20 @@ class Generator {
     std::uint32_t one_of(std::uint32_t bits);
 
     std::uint32_t color();
-    std::uint32_t mask(std::uint32_t i, std::uint32_t j);
+    MadeRegion region();
     double coordinate();
     double control(double a, double b, double u) { return a + (b - a) * u; }
     std::array<double, 2> monotone_handles();
-    std::uint32_t append_polyline(std::uint32_t count);
-    std::uint32_t append_curves(std::uint32_t degree, std::uint32_t count);
-    std::uint32_t append_list(std::uint32_t i, std::uint32_t j);
-    std::uint32_t append_directory(std::uint32_t i, std::uint32_t j);
-    std::uint32_t next_record() const { return static_cast<std::uint32_t>(texture_.records.size() / 4); }
-    std::uint32_t texel_word(std::uint32_t i, std::uint32_t j);
+    std::vector<std::uint32_t> polyline(std::uint32_t count);
+    std::vector<std::uint32_t> curves(std::uint32_t degree, std::uint32_t count);
+    std::uint32_t list();
+    std::uint32_t directory();
+    std::uint32_t texel();
 
     std::mt19937_64 random_;
     RandomFbtOptions options_;
     FbtTexture texture_;
+    std::vector<MadeRun> written_; ///< with points to share
 };
 
 std::uint32_t Generator::one_of(std::uint32_t bits) {
@@ -54,16 +55,14 @@ std::uint32_t Generator::color() {
     return below(alpha + 1) | below(alpha + 1) << 8 | below(alpha + 1) << 16 | alpha << 24;
 }
 
-/// Any codes that name texels which are there.
-std::uint32_t Generator::mask(std::uint32_t i, std::uint32_t j) {
-    if (!options_.interpolated || chance(30)) return 0;
-    const bool right = i + 1 < options_.width + options_.apron, down = j + 1 < options_.height + options_.apron;
-    std::uint32_t bits = 0;
-    for (std::uint32_t corner = 0; corner < 4; ++corner) {
-        const std::uint32_t code = below(4);
-        if (((code & 1u) == 0 || right) && ((code & 2u) == 0 || down)) bits |= code << (2 * corner);
-    }
-    return bits;
+MadeRegion Generator::region() {
+    const std::uint32_t choice = below(10);
+    if (options_.corners && choice < 3) return {fetex::kFbtModelCorners, 0};
+    if (!options_.patches || choice < 6) return {fetex::kFbtModelSolid, color()};
+    std::array<std::uint32_t, 4> c{};
+    for (std::uint32_t& sample : c)
+        sample = color();
+    return {fetex::kFbtModelPatch, append_patch(texture_.records, c[0], c[1], c[2], c[3])};
 }
 
 /// Often inside the texel, often on a coarse grid, where rays meet end points exactly, or on a side of the texel.
@@ -83,21 +82,18 @@ std::array<double, 2> Generator::monotone_handles() {
     }
 }
 
-std::uint32_t Generator::append_polyline(std::uint32_t count) {
-    const std::uint32_t first = next_record();
+std::vector<std::uint32_t> Generator::polyline(std::uint32_t count) {
+    std::vector<std::uint32_t> points;
     for (std::uint32_t k = 0; k <= count; ++k)
-        texture_.records.push_back(fetex::fbt_pack_point(coordinate(), coordinate()));
-    texture_.records.resize((texture_.records.size() + 3) / 4 * 4, 0);
-    return first;
+        points.push_back(fetex::fbt_pack_point(coordinate(), coordinate()));
+    return points;
 }
 
-std::uint32_t Generator::append_curves(std::uint32_t degree, std::uint32_t count) {
-    const std::uint32_t first = next_record();
+std::vector<std::uint32_t> Generator::curves(std::uint32_t degree, std::uint32_t count) {
     double x0 = coordinate(), y0 = coordinate();
+    std::vector<std::uint32_t> out{fetex::fbt_pack_point(x0, y0)};
     for (std::uint32_t k = 0; k < count; ++k) {
         const double x1 = coordinate(), y1 = chance(10) ? y0 : coordinate();
-        auto& out = texture_.records;
-        out.push_back(fetex::fbt_pack_point(x0, y0));
         if (degree == 2) {
             out.push_back(fetex::fbt_pack_point(control(x0, x1, unit()), control(y0, y1, chance(20) ? 0 : unit())));
         } else {
@@ -106,76 +102,76 @@ std::uint32_t Generator::append_curves(std::uint32_t degree, std::uint32_t count
             out.push_back(fetex::fbt_pack_point(control(x0, x1, hx[1]), control(y0, y1, hy[1])));
         }
         out.push_back(fetex::fbt_pack_point(x1, y1));
-        if (degree == 2) out.push_back(0);
         x0 = x1;
         y0 = y1;
     }
-    return first;
+    return out;
 }
 
-/// Pieces first, then the entries that point at them; some runs share the pieces of another.
-std::uint32_t Generator::append_list(std::uint32_t i, std::uint32_t j) {
-    std::vector<std::uint32_t> entries;
+/// Some runs share the points of a list before.
+std::uint32_t Generator::list() {
+    std::vector<MadeRun> runs;
     const std::uint32_t features = options_.degrees == 0 ? 0 : below(options_.max_features + 1);
     for (std::uint32_t feature = 0; feature < features; ++feature) {
-        const std::uint32_t runs = 1 + below(3);
         const std::uint32_t direction = one_of(options_.directions);
-        std::uint32_t address = 0, shape = 0;
-        for (std::uint32_t run = 0; run < runs; ++run) {
-            if (run == 0 || chance(80)) {
-                const std::uint32_t degree = one_of(options_.degrees), count = 1 + below(options_.max_pieces);
-                address = degree == 1 ? append_polyline(count) : append_curves(degree, count);
-                shape = count | degree << 16;
+        for (std::uint32_t left = 1 + below(3); left > 0; --left) {
+            MadeRun run;
+            if (!written_.empty() && chance(20)) {
+                run = written_[below(static_cast<std::uint32_t>(written_.size()))];
+            } else {
+                run.degree = one_of(options_.degrees), run.pieces = 1 + below(options_.max_pieces);
+                run.points = run.degree == 1 ? polyline(run.pieces) : curves(run.degree, run.pieces);
             }
-            const bool last = run + 1 == runs;
-            entries.push_back(address);
-            entries.push_back(shape | direction << 18 | (last ? fetex::kFbtEntryLastRun : 0));
-            entries.push_back(last ? color() : 0);
-            entries.push_back(last ? mask(i, j) : 0);
+            run.direction = direction, run.last = left == 1;
+            if (run.last) run.inside = region();
+            runs.push_back(std::move(run));
         }
     }
-    entries.insert(entries.end(), {0, fetex::kFbtEntryTerminator, color(), mask(i, j)});
-    const std::uint32_t first = next_record();
-    texture_.records.insert(texture_.records.end(), entries.begin(), entries.end());
+    std::vector<std::uint32_t> first_words;
+    const MadeRegion rest = region();
+    const std::uint32_t first = append_list(texture_.records, runs, rest, &first_words);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        MadeRun& run = runs[k];
+        if (run.points.empty()) continue;
+        run.points.clear(), run.inside = {}, run.shared_from = first_words[k];
+        written_.push_back(run);
+    }
     return first;
 }
 
-std::uint32_t Generator::append_directory(std::uint32_t i, std::uint32_t j) {
+std::uint32_t Generator::directory() {
     std::vector<std::uint32_t> ends;
     for (std::uint32_t k = below(7); k > 0; --k)
         ends.push_back(chance(40) ? fetex::fbt_quantise((1 + below(15)) / 16.0) : 0x4001 + below(0x7fff));
     ends.push_back(0xc000);
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    std::vector<std::uint32_t> words = {static_cast<std::uint32_t>(ends.size()), 0};
-    for (const std::uint32_t end : ends) {
-        words.push_back(end);
-        words.push_back(append_list(i, j));
-    }
-    words.resize((words.size() + 3) / 4 * 4, 0);
-    const std::uint32_t first = next_record();
-    texture_.records.insert(texture_.records.end(), words.begin(), words.end());
-    return first;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> bands;
+    for (const std::uint32_t end : ends)
+        bands.emplace_back(end, list());
+    return append_directory(texture_.records, bands);
 }
 
-std::uint32_t Generator::texel_word(std::uint32_t i, std::uint32_t j) {
+std::uint32_t Generator::texel() {
     const std::uint32_t choice = below(options_.bands ? 4 : 3);
-    if (choice == 0) return mask(i, j);
-    if (choice == 3) return fetex::kFbtKindBanded << 30 | append_directory(i, j);
-    return fetex::kFbtKindSingle << 30 | append_list(i, j);
+    if (choice == 3) return (fetex::kFbtKindBanded << 30) | directory();
+    if (choice != 0) return (fetex::kFbtKindSingle << 30) | list();
+    const MadeRegion r = region();
+    if (r.model != fetex::kFbtModelSolid) return shaded_texel(r);
+    return r.sample >> 24 == 255 ? solid_texel(r.sample) : 0;
 }
 
 FbtTexture Generator::make() {
     texture_.width = options_.width;
     texture_.height = options_.height;
-    texture_.apron = options_.apron;
-    for (std::uint32_t j = 0; j < options_.height + options_.apron; ++j) {
-        for (std::uint32_t i = 0; i < options_.width + options_.apron; ++i) {
-            texture_.texels.push_back(color());
-            texture_.texels.push_back(i < options_.width && j < options_.height ? texel_word(i, j) : 0);
-        }
+    if (options_.corners) {
+        for (std::uint32_t k = 0; k < (options_.width + 1) * (options_.height + 1); ++k)
+            texture_.corners.push_back(color());
     }
+    for (std::uint32_t k = 0; k < options_.width * options_.height; ++k)
+        texture_.texels.push_back(texel());
     texture_.traits = fetex::fbt_traits(texture_);
+    if (!texture_.traits.corners) texture_.corners.clear(), texture_.traits = fetex::fbt_traits(texture_);
     return std::move(texture_);
 }
 

@@ -94,7 +94,7 @@ TEST(Report, listsWhatTheShaderLeavesOut) {
     traits.degrees = 1u << 1 | 1u << 3;
     traits.bands = true;
     traits.directions = 0b0101;
-    const std::vector<std::string> expected = {"quadratics", "interpolation", "translucency", "rays -x", "rays -y"};
+    const std::vector<std::string> expected = {"quadratics", "interpolated corners", "patches", "shared points", "translucency", "rays -x", "rays -y"};
     EXPECT_EQ(shader_parts_left_out(traits), expected);
 }
 

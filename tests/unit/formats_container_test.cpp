@@ -89,7 +89,7 @@ TEST(File, alignsEveryChunkForTheGpu) {
     const Bytes bytes = write_file(small_file());
     ContainerView container;
     ASSERT_FALSE(read_container(container, bytes).has_value());
-    ASSERT_EQ(container.chunks.size(), 4u);
+    ASSERT_EQ(container.chunks.size(), 5u);
     for (const ChunkView& chunk : container.chunks)
         EXPECT_EQ(chunk.offset % 16, 0u) << fourcc_text(chunk.type);
 }
@@ -148,7 +148,7 @@ TEST(Reader, namesTextModeDamage) {
 
 TEST(Reader, refusesOtherMajorVersionsAndTakesNewerMinorOnes) {
     Bytes bytes = write_file(small_file());
-    store(bytes, 8, 2, 2);
+    store(bytes, 8, kVersionMajor + 1, 2);
     reseal(bytes);
     EXPECT_EQ(code_of(bytes), FindingCode::UnsupportedVersion);
     bytes = write_file(small_file());
@@ -194,7 +194,8 @@ TEST(Reader, refusesHostileFieldsWithGoodChecksums) {
 
 TEST(Reader, refusesPaddingThatIsNotZero) {
     Bytes bytes = write_file({{{"k", "v"}}, fetexc::test::random_fbt(1)}); // META: 14 bytes, 2 of padding
-    bytes[160 + 14] = 1;
+    const std::size_t first_payload = 32 + std::size_t{32} * bytes[12];
+    bytes[first_payload + 14] = 1;
     EXPECT_EQ(code_of(bytes), FindingCode::PaddingNotZero);
 }
 
@@ -258,13 +259,12 @@ TEST(Reader, refusesHostileFbtHeaders) {
         EXPECT_EQ(with_word(0, bad), FindingCode::BadFbtHeader);
         EXPECT_EQ(with_word(1, bad), FindingCode::BadFbtHeader);
     }
-    EXPECT_EQ(with_word(2, 2), FindingCode::BadFbtHeader);
-    EXPECT_EQ(with_word(3, 1), FindingCode::BadFbtHeader);
-    EXPECT_EQ(with_word(6, 8), FindingCode::BadFbtHeader);
+    EXPECT_EQ(with_word(2, 1), FindingCode::BadFbtHeader);
+    EXPECT_EQ(with_word(5, 32), FindingCode::BadFbtHeader);
     EXPECT_EQ(with_word(15, 1), FindingCode::BadFbtHeader);
     EXPECT_EQ(with_word(0, 16384), FindingCode::FbtSizeMismatch);
-    EXPECT_EQ(with_word(10, 0xffffffff), FindingCode::FbtSizeMismatch);
-    EXPECT_EQ(with_word(8, 1u << 19), FindingCode::FbtTraitsMismatch);
+    EXPECT_EQ(with_word(9, 0xffffffff), FindingCode::FbtSizeMismatch);
+    EXPECT_EQ(with_word(7, 1u << 19), FindingCode::FbtTraitsMismatch);
 }
 
 TEST(Validator, countsOffsetsFromTheStartOfTheFile) {
@@ -273,13 +273,13 @@ TEST(Validator, countsOffsetsFromTheStartOfTheFile) {
     ASSERT_FALSE(read_container(container, good).has_value());
     const std::size_t texels = static_cast<std::size_t>(container.chunks[2].offset);
     Bytes bytes = good;
-    store(bytes, texels + 12, 0xffffffff, 4); // word 1 of texel (1,0): kind 3
+    store(bytes, texels + 4, 0xffffffff, 4); // texel (1,0): shaded by model 3
     reseal(bytes);
     const auto findings = validate_file(bytes);
     ASSERT_FALSE(findings.empty());
-    EXPECT_EQ(findings[0].code, FindingCode::FbtTexelKind);
-    EXPECT_EQ(findings[0].offset, texels + 8);
-    EXPECT_EQ(finding_id(findings[0].code), "F1002");
+    EXPECT_EQ(findings[0].code, FindingCode::FbtModel);
+    EXPECT_EQ(findings[0].offset, texels + 4);
+    EXPECT_EQ(finding_id(findings[0].code), "F1020");
 }
 
 } // namespace

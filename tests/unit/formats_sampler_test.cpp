@@ -6,6 +6,7 @@
 #include <random>
 
 #include "formats/validate.h"
+#include "tests/support/fbt_maker.h"
 #include "tests/support/random_fbt.h"
 
 namespace fetex {
@@ -18,73 +19,66 @@ struct P {
 };
 struct FeatureRun {
     std::uint32_t degree, direction;
-    std::vector<P> points; ///< polyline, or degree+1 points per piece
-    std::uint32_t color = 0;
+    std::vector<P> points;   ///< neighbouring pieces share one
+    std::uint32_t color = 0; ///< or what the model's sample is
     bool last = true;
-    std::uint32_t mask = 0;
+    std::uint32_t model = kFbtModelSolid;
 };
 
-using Words = std::vector<std::uint32_t>;
+using fetexc::test::append_directory;
+using fetexc::test::append_list;
+using fetexc::test::append_patch;
+using fetexc::test::MadeRegion;
+using fetexc::test::MadeRun;
+using fetexc::test::shaded_texel;
+using fetexc::test::solid_texel;
 
-/// Not vector::insert: GCC 12 warns of an overflow there that doesn't exist.
-void append(Words& out, const Words& words) {
-    for (const std::uint32_t word : words)
-        out.push_back(word);
+MadeRun made(const FeatureRun& run) {
+    MadeRun out{run.degree, run.direction, static_cast<std::uint32_t>(run.points.size() - 1) / run.degree, {}, 0,
+                run.last, {run.model, run.color}};
+    for (const P& p : run.points)
+        out.points.push_back(fbt_pack_point(p.x, p.y));
+    return out;
 }
 
 /// One texel, or more of the same size; texel (0,0) gets the features.
 class Maker {
   public:
-    explicit Maker(std::uint32_t width = 1, std::uint32_t height = 1, std::uint32_t apron = 0) {
+    explicit Maker(std::uint32_t width = 1, std::uint32_t height = 1) {
         t.width = width;
         t.height = height;
-        t.apron = apron;
-        for (std::uint32_t k = 0; k < (width + apron) * (height + apron); ++k)
-            append(t.texels, {kWhite, 0});
+        t.texels.assign(std::size_t{width} * height, solid_texel(kWhite));
     }
-    /// Address of the entry list.
-    std::uint32_t list(const std::vector<FeatureRun>& runs, std::uint32_t rest, std::uint32_t rest_mask = 0) {
-        Words entries;
-        for (const FeatureRun& run : runs) {
-            const std::uint32_t address = records();
-            for (std::size_t k = 0; k < run.points.size(); ++k) {
-                t.records.push_back(fbt_pack_point(run.points[k].x, run.points[k].y));
-                if (run.degree == 2 && k % 3 == 2) t.records.push_back(0);
-            }
-            t.records.resize((t.records.size() + 3) / 4 * 4, 0);
-            const auto count = static_cast<std::uint32_t>(run.degree == 1 ? run.points.size() - 1
-                                                                          : run.points.size() / (run.degree + 1));
-            append(entries,
-                   {address, count | run.degree << 16 | run.direction << 18 | (run.last ? kFbtEntryLastRun : 0),
-                    run.last ? run.color : 0, run.last ? run.mask : 0});
-        }
-        append(entries, {0, kFbtEntryTerminator, rest, rest_mask});
-        const std::uint32_t first = records();
-        append(t.records, entries);
-        return first;
+    /// Its entry list.
+    std::uint32_t list(const std::vector<FeatureRun>& runs, MadeRegion rest) {
+        std::vector<MadeRun> all;
+        for (const FeatureRun& run : runs)
+            all.push_back(made(run));
+        return append_list(t.records, all, rest);
     }
-    void single(const std::vector<FeatureRun>& runs, std::uint32_t rest, std::uint32_t rest_mask = 0) {
-        t.texels[1] = kFbtKindSingle << 30 | list(runs, rest, rest_mask);
+    std::uint32_t list(const std::vector<FeatureRun>& runs, std::uint32_t rest) {
+        return list(runs, MadeRegion{kFbtModelSolid, rest});
+    }
+    void single(const std::vector<FeatureRun>& runs, std::uint32_t rest) {
+        t.texels[0] = kFbtKindSingle << 30 | list(runs, rest);
     }
     void banded(const std::vector<std::pair<double, std::uint32_t>>& bands) {
-        Words words = {static_cast<std::uint32_t>(bands.size()), 0};
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> directory;
         for (const auto& [end, first] : bands)
-            append(words, {fbt_quantise(end), first});
-        words.resize((words.size() + 3) / 4 * 4, 0);
-        t.texels[1] = kFbtKindBanded << 30 | records();
-        append(t.records, words);
+            directory.emplace_back(fbt_quantise(end), first);
+        t.texels[0] = kFbtKindBanded << 30 | append_directory(t.records, directory);
     }
-    /// Sample of the region at a point of texel (0,0). The texture must be valid.
-    std::uint32_t at(double x, double y) {
+    void check() {
         t.traits = fbt_traits(t);
         const auto findings = validate_fbt(t);
         EXPECT_TRUE(findings.empty()) << findings[0].message;
+    }
+    /// Sample of the region at a point of texel (0,0). The texture must be valid.
+    std::uint32_t at(double x, double y) {
+        check();
         return fbt_locate_local(t, 0, 0, x, y).sample;
     }
     FbtTexture t;
-
-  private:
-    [[nodiscard]] std::uint32_t records() const { return static_cast<std::uint32_t>(t.records.size() / 4); }
 };
 
 TEST(Quantise, keepsZeroAndOneExact) {
@@ -98,11 +92,13 @@ TEST(Quantise, keepsZeroAndOneExact) {
         EXPECT_EQ(fbt_quantise(fbt_dequantise(u)), u);
 }
 
-TEST(Sampler, emptyTexelIsItsSample) {
+TEST(Sampler, solidTexelIsItsColour) {
     Maker m;
-    m.t.texels[0] = kGreen;
+    m.t.texels[0] = solid_texel(kGreen);
     EXPECT_EQ(m.at(0.3, 0.9), kGreen);
     EXPECT_EQ(fbt_locate(m.t, 0.3, 0.9).record, 0xffffffffu);
+    m.t.texels[0] = 0; // nothing
+    EXPECT_EQ(m.at(0.3, 0.9), 0u);
 }
 
 /// FBT Fig. 5 (a): a line from top to bottom, red on its left. The ray runs along +x; along −x the line bounds the
@@ -300,52 +296,57 @@ TEST(Sampler, bandHoldsItsStartAndNotItsEnd) {
     }
 }
 
-/// FBT Fig. 6: (a) all four samples, (b) the right ones blocked and the left copied, (c) only one neighbour reachable.
-TEST(Sampler, masksNameTheSampleOfEachCorner) {
-    Maker m(1, 1, 1);
-    m.t.texels = {0xff000000, 0, 0xff000040, 0, 0xff000080, 0, 0xff0000c0, 0}; // red 0, 64, 128, 192
-    const auto red = [&](std::uint32_t mask, double x, double y) {
-        m.t.texels[1] = mask;
-        m.at(x, y);
-        return fbt_sample(m.t, x, y).r * 255;
-    };
-    EXPECT_NEAR(red(0xe4, 0.25, 0.5), 0.25 * 64 + 0.5 * 128, 1e-9); // (a): codes 0 1 2 3
-    EXPECT_NEAR(red(0xa0, 0.25, 0.5), 0.5 * 128, 1e-9);             // (b): codes 0 0 2 2
-    EXPECT_NEAR(red(0xff, 0.25, 0.5), 192, 1e-9);                   // (c): codes 3 3 3 3
-    EXPECT_NEAR(red(0xc0, 0.5, 0.5), 0.25 * 192, 1e-9);             // codes 0 0 0 3
-    EXPECT_NEAR(red(0x00, 0.9, 0.9), 0, 1e-9);
-}
-
-/// A region inside a feature interpolates from its own sample and the neighbours its mask names, not the texel's.
-TEST(Sampler, regionsInterpolateFromTheirOwnSample) {
-    Maker m(2, 1, 1);
-    for (std::size_t k = 0; k < 6; ++k)
-        m.t.texels[2 * k] = 0xff000000u + 10 * static_cast<std::uint32_t>(k);
-    m.single({{1, kFbtRayPosX, {{0.5, 0}, {0.5, 1}}, 0xff0000c8, true, 0xa0}}, 0xff000064, 0x55);
-    m.at(0, 0);
-    EXPECT_NEAR(fbt_sample(m.t, 0.25, 0.5).r * 255, 0.5 * 200 + 0.5 * 30, 1e-9); // own 200, below 30
-    EXPECT_NEAR(fbt_sample(m.t, 0.75, 0.5).r * 255, 10, 1e-9);                   // the right neighbour's only
-}
-
-TEST(Sampler, apronReachesBeyondTheLastTexel) {
-    Maker m(2, 2, 1);
-    for (std::size_t k = 0; k < 9; ++k)
-        m.t.texels[2 * k] = 0xff000000u + 10 * static_cast<std::uint32_t>(k);
-    for (const std::size_t k : {0u, 1u, 3u, 4u})
-        m.t.texels[2 * k + 1] = 0xe4;
-    m.t.traits = fbt_traits(m.t);
-    ASSERT_TRUE(validate_fbt(m.t).empty());
-    // A plane: 10 a column, 30 a row.
+/// FBT Fig. 6 (a): all four corners; a plane of 10 a column, 30 a row.
+TEST(Sampler, cornersAreInterpolatedAndReachBeyondTheLastTexel) {
+    Maker m(2, 2);
+    for (std::uint32_t k = 0; k < 9; ++k)
+        m.t.corners.push_back(0xff000000u + 10 * k);
+    for (std::uint32_t& texel : m.t.texels)
+        texel = shaded_texel({kFbtModelCorners, 0});
+    m.check();
+    EXPECT_TRUE(m.t.traits.corners);
     for (double y = 0; y <= 2; y += 0.25)
         for (double x = 0; x <= 2; x += 0.25)
             EXPECT_NEAR(fbt_sample(m.t, x, y).r * 255, 10 * x + 30 * y, 1e-9) << x << " " << y;
+}
+
+/// Each side of a feature has its own gradient: a patch inside, the texel's corners outside.
+TEST(Sampler, regionsHaveModelsOfTheirOwn) {
+    Maker m;
+    m.t.corners = {0xff000000, 0xff000064, 0xff000000, 0xff000064}; // 100 a column
+    const std::uint32_t patch = append_patch(m.t.records, 0xff0000c8, 0xff0000c8, 0xff000000, 0xff000000);
+    m.t.texels[0] = kFbtKindSingle << 30 |
+                    m.list({{1, kFbtRayPosX, {{0.5, 0}, {0.5, 1}}, patch, true, kFbtModelPatch}}, {kFbtModelCorners, 0});
+    m.check();
+    EXPECT_NEAR(fbt_sample(m.t, 0.25, 0.25).r * 255, 0.75 * 200, 1e-9);
+    EXPECT_NEAR(fbt_sample(m.t, 0.75, 0.25).r * 255, 75, 1e-9);
+    m.t.texels[0] = shaded_texel({kFbtModelPatch, patch});
+    m.check();
+    EXPECT_NEAR(fbt_sample(m.t, 0.75, 0.5).r * 255, 100, 1e-9);
+}
+
+/// Bands may share points: the second list reads those of the first.
+TEST(Sampler, sharedPointsAreThoseOfTheOtherRun) {
+    Maker m;
+    const MadeRun cubic = made({3, kFbtRayPosX, {{0.25, 0}, {0.25, 0.25}, {0.75, 0.75}, {0.75, 1}}, kRed});
+    std::vector<std::uint32_t> words;
+    const std::uint32_t above = append_list(m.t.records, {cubic}, {kFbtModelSolid, kBlue}, &words);
+    MadeRun again = cubic;
+    again.points.clear(), again.shared_from = words[0], again.inside.sample = kGreen;
+    const std::uint32_t below = append_list(m.t.records, {again}, {kFbtModelSolid, kWhite});
+    m.banded({{0.5, above}, {1, below}});
+    EXPECT_EQ(m.at(0.3, 0.4), kRed);
+    EXPECT_EQ(m.at(0.6, 0.4), kBlue);
+    EXPECT_EQ(m.at(0.4, 0.6), kGreen);
+    EXPECT_EQ(m.at(0.7, 0.6), kWhite);
+    EXPECT_TRUE(m.t.traits.shared);
 }
 
 TEST(Sampler, clampsPointsOutsideAndNotANumber) {
     const FbtTexture t = fetexc::test::random_fbt(3);
     const auto same = [&](double x, double y, double cx, double cy) {
         const FbtRegion a = fbt_locate(t, x, y), b = fbt_locate(t, cx, cy);
-        EXPECT_TRUE(a.i == b.i && a.j == b.j && a.record == b.record);
+        EXPECT_TRUE(a.i == b.i && a.j == b.j && a.record == b.record && a.rest == b.rest);
     };
     same(-3, 2.5, 0, 2.5);
     same(1e300, -1e300, 8, 0);

@@ -8,6 +8,7 @@
 
 #include "formats/fetex_file.h"
 #include "formats/validate.h"
+#include "tests/support/fbt_maker.h"
 
 namespace fetex {
 namespace {
@@ -15,12 +16,10 @@ namespace {
 FetexFile example() {
     FbtTexture t;
     t.width = t.height = 1;
-    t.texels = {0xff0000ff, kFbtKindSingle << 30 | 1};
-    t.records = {fbt_pack_point(0.25, 0), fbt_pack_point(0.75, 1), 0, 0};
-    for (const std::uint32_t word : {0u, 1u | 1u << 16 | kFbtRayPosX << 18 | kFbtEntryLastRun, 0xff0000ffu, 0u})
-        t.records.push_back(word);
-    for (const std::uint32_t word : {0u, kFbtEntryTerminator, 0xffff0000u, 0u})
-        t.records.push_back(word);
+    t.texels = {kFbtKindSingle << 30};
+    const fetexc::test::MadeRun line{1, kFbtRayPosX, 1, {fbt_pack_point(0.25, 0), fbt_pack_point(0.75, 1)}, 0, true,
+                                     {kFbtModelSolid, 0xff0000ff}};
+    fetexc::test::append_list(t.records, {line}, {kFbtModelSolid, 0xffff0000});
     t.traits = fbt_traits(t);
     return {{{"generator", "example"}}, t};
 }

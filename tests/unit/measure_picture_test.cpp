@@ -6,6 +6,7 @@
 
 #include "compiler/error_budget.h"
 #include "compiler/measure/pictures.h"
+#include "tests/support/fbt_maker.h"
 #include "tests/support/known_shapes.h"
 #include "tests/support/measured.h"
 #include "tests/support/random.h"
@@ -110,7 +111,7 @@ TEST(ColorError, ofAWrongTexelIsReportedWithItsPlace) {
     const SizeErrors right = errors_at(scene, FbtPicture(texture), 256);
     EXPECT_LT(right.away.max, 1e-12);
     const std::uint32_t i = 12, j = 3; // white
-    texture.texels[2 * (j * (16 + texture.apron) + i)] = 0xff80ffffu;
+    texture.texels[j * 16 + i] = test::solid_texel(0xff80ffffu);
     const SizeErrors wrong = errors_at(scene, FbtPicture(texture), 256);
     EXPECT_NEAR(wrong.away.max, 127.0 / 255, 1e-12);
     EXPECT_NEAR(wrong.away.place.u, (i + 0.5) / 16, 0.5 / 16);

@@ -132,8 +132,8 @@ TEST_F(RendererErrors, texturesBeyondTheDevice) {
     FbtTexture texture;
     texture.width = 16384;
     texture.height = 1;
-    texture.apron = 1; // 16385 columns; llvmpipe takes 16384
-    texture.texels.resize(std::size_t{16385} * 2 * 2, 0);
+    texture.texels.resize(16384, 0);
+    texture.corners.resize(std::size_t{16385} * 2, 0); // llvmpipe takes 16384
     const auto bad = renderer_->upload(texture);
     ASSERT_TRUE(bad.has_value());
     EXPECT_EQ(bad->code, RuntimeErrc::TextureTooLarge);

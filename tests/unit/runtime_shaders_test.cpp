@@ -48,24 +48,25 @@ class Shaders : public testing::Test {
 
 FbtTexture needing(std::uint32_t degrees, std::uint32_t switches, std::uint32_t directions) {
     FbtTexture t;
-    t.apron = switches >> 1 & 1u; // an apron comes with interpolation
     t.traits.degrees = degrees;
     t.traits.bands = switches & 1u;
-    t.traits.interpolated = switches & 2u;
+    t.traits.corners = switches & 2u;
     t.traits.translucent = switches & 4u;
+    t.traits.patches = switches & 8u;
+    t.traits.shared = switches & 16u;
     t.traits.directions = directions;
-    t.traits.max_entries = degrees == 0 && switches < 4 ? 0 : 3; // bands of one region each have no degree
+    t.traits.max_entries = degrees == 0 && (switches & 4u) == 0 ? 0 : 3; // bands of one region each have no degree
     return t;
 }
 
-/// What an asset can need: all sets of degrees with bands, gradients, alpha; and all kinds of ray sets.
+/// What an asset can need: all sets of degrees with bands, corners, alpha, patches, shared points; and all kinds of ray sets.
 std::vector<FbtTexture> all_specialisations() {
     std::vector<FbtTexture> all;
     for (std::uint32_t degrees = 0; degrees < 16; degrees += 2)
-        for (std::uint32_t switches = 0; switches < 8; ++switches)
+        for (std::uint32_t switches = 0; switches < 32; ++switches)
             all.push_back(needing(degrees, switches, 15));
     for (const std::uint32_t directions : {1u, 2u, 4u, 8u, 3u, 12u, 5u, 10u})
-        all.push_back(needing(14, 7, directions));
+        all.push_back(needing(14, 31, directions));
     return all;
 }
 
