@@ -106,7 +106,8 @@ Json traits_json(const fetex::FbtTraits& traits) {
             {"translucent", traits.translucent},
             {"directions", traits.directions},
             {"maxEntries", traits.max_entries},
-            {"maxBands", traits.max_bands}};
+            {"maxBands", traits.max_bands},
+            {"maxDepth", traits.max_depth}};
 }
 
 Json fbt_json(const fetex::FbtTexture& fbt) {

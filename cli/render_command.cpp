@@ -23,14 +23,21 @@ struct RenderOptions {
     std::string representation = "fbt";
     ViewValue view;
     SizeValue size{0, 0, kDefaultPixels};
-    std::uint32_t supersample = kDefaultSupersample;
+    std::uint32_t supersample = 0; ///< 0: by filter
+    std::string filter = "point";
     bool quiet = false;
 };
+
+fetex::Filter filter_of(const std::string& name) {
+    return name == "area" ? fetex::Filter::Area : name == "exact" ? fetex::Filter::ExactArea : fetex::Filter::Point;
+}
 
 fetex::RenderSize pixels_for(const RenderOptions& options, const fetex::FbtTexture& texture) {
     const double aspect = options.view.w * texture.width / (options.view.h * texture.height);
     const PixelSize size = resolve_size(options.size, aspect);
-    return {size.width, size.height, options.supersample};
+    const fetex::Filter filter = filter_of(options.filter);
+    const std::uint32_t usual = filter == fetex::Filter::Point ? kDefaultSupersample : 1;
+    return {size.width, size.height, options.supersample != 0 ? options.supersample : usual, filter};
 }
 
 /// Draws the ordinary texture that the same bytes buy, to the right of the picture.
@@ -92,9 +99,15 @@ Command add_render_command(CLI::App& parent) {
                     "What draws: cpu (default), osmesa, egl (surfaceless, else device) or glfw (needs a display)")
         ->check(CLI::IsMember(canvas_names()))
         ->type_name("NAME");
-    app->add_option("--supersample", options->supersample, "N x N samples a pixel, 1 to 16 (default 4)")
+    app->add_option("--supersample", options->supersample,
+                    "N x N samples a pixel, 1 to 16 (default 4; 1 with a filter that isn't point)")
         ->check(CLI::Range(1u, fetex::kMaxSupersample))
         ->type_name("N");
+    app->add_option("--filter", options->filter,
+                    "A sample is the colour at a point (point, default) or the mean over its part of the pixel: area, "
+                    "from one texel, or exact, from all that it overlaps")
+        ->check(CLI::IsMember({"point", "area", "exact"}))
+        ->type_name("NAME");
     app->add_option("--beside", options->beside,
                     "bilinear: draw to the right what an ordinary texture of the same bytes shows")
         ->check(CLI::IsMember({"bilinear"}))

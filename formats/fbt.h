@@ -21,7 +21,8 @@
 ///     word 0  bits 0..9 pieces in the run, 10..11 degree (0: no pieces), 12..13 ray direction (0 +x, 1 −x, 2 +y, 3
 ///     −y),
 ///             14 last run of its feature, 15 last entry of the list, 16..17 model of the region inside the feature,
-///             18..19 model of the rest, 20 points shared
+///             18..19 model of the rest, 20 points shared, 21..23 depth: features that it lies inside of, 7 and more
+///             are 7. A feature comes right after those inside it (post-order)
 ///     word 1  sample of the region inside (valid on the last run of a feature)
 ///     then    the run's degree·pieces+1 points (neighbours share their end points), or, if shared, the index of the
 ///             word where they begin
@@ -46,6 +47,7 @@ inline constexpr std::uint32_t kFbtOpaque = 1u << 24; ///< of a solid texel
 inline constexpr std::uint32_t kFbtModelSolid = 0, kFbtModelCorners = 1, kFbtModelPatch = 2;
 inline constexpr std::uint32_t kFbtMaxPieces = (1u << 10) - 1; ///< in a run
 inline constexpr std::uint32_t kFbtEntryLastRun = 1u << 14, kFbtEntryLast = 1u << 15, kFbtEntryShared = 1u << 20;
+inline constexpr std::uint32_t kFbtDepthShift = 21, kFbtMaxDepth = 7;
 inline constexpr std::uint32_t kFbtRayPosX = 0, kFbtRayNegX = 1, kFbtRayPosY = 2, kFbtRayNegY = 3;
 
 /// What the asset needs from a sampler; the shader prelude leaves the rest out.
@@ -60,6 +62,7 @@ struct FbtTraits {
     std::uint32_t directions = 0;  ///< bit d set: ray direction d is used
     std::uint32_t max_entries = 0; ///< longest entry list of a band
     std::uint32_t max_bands = 0;   ///< most bands in a texel
+    std::uint32_t max_depth = 0;   ///< largest depth of an entry
 };
 
 /// Owning FBT. validate_fbt (formats/validate.h) checks the invariants; a reader calls it before anything is sampled.
@@ -86,6 +89,7 @@ struct FbtEntry {
     [[nodiscard]] bool shared() const { return (word_ & kFbtEntryShared) != 0; }
     [[nodiscard]] std::uint32_t model() const { return word_ >> 16 & 3u; }
     [[nodiscard]] std::uint32_t rest_model() const { return word_ >> 18 & 3u; }
+    [[nodiscard]] std::uint32_t depth() const { return word_ >> kFbtDepthShift & kFbtMaxDepth; }
     [[nodiscard]] std::uint32_t points() const { return pieces() * degree() + 1; }
     /// Words before the sample of the rest.
     [[nodiscard]] std::uint32_t rest_word() const { return shared() ? 3 : 2 + points(); }
@@ -117,6 +121,20 @@ FbtColor fbt_sample(const FbtTexture& texture, double x, double y);
 
 /// As fbt_sample, for a point given as integer base texel plus local offset in [0,1)² (deep zoom).
 FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy);
+
+/// A pixel: a rectangle along the axes of the texture around the point, in texels; half a side is above 0, at most 1/2.
+struct FbtPixel {
+    double half_width = 0.5, half_height = 0.5;
+    bool exact = false; ///< every texel that it overlaps is looked at
+};
+
+/// Area sampling: the mean colour over a pixel around (x,y), or around a local offset of texel (i,j), which is in the
+/// texture. A region counts with the area that it has in the pixel, with the colour that it has in the middle. Not
+/// exact: where a pixel overlaps several texels with features, one speaks for all, its edges going on straight beyond
+/// it (SPEC.md, 4.1).
+FbtColor fbt_sample_area(const FbtTexture& texture, double x, double y, FbtPixel pixel);
+FbtColor fbt_sample_area_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy,
+                               FbtPixel pixel);
 
 /// What queries cost (FBT §6.3, Table 3): s_avg = pieces / queries, f_test = solved[3] / pieces. Adds up over calls.
 struct FbtQueryStats {

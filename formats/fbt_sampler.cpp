@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 /// The CPU reference sampler (SPEC.md, "Sampling an FBT"): plain, slow, in double. The GLSL sampler must agree with it.
 #include "formats/fbt.h"
+#include "formats/fbt_walk.h"
 
 #include <algorithm>
 #include <array>
@@ -117,23 +118,6 @@ bool run_parity(const FbtTexture& texture, const std::uint32_t* words, double fx
     return odd;
 }
 
-/// Record index of the entry list of the band that holds fy (FBT §5, step 3).
-std::uint32_t find_band(const FbtTexture& texture, std::uint32_t directory, double fy, FbtQueryStats& stats) {
-    const std::uint32_t* words = texture.records.data() + std::size_t{directory} * 4;
-    const std::uint32_t bands = words[0];
-    std::uint32_t low = 0, high = bands - 1; // the answer is in [low, high]
-    while (low < high) {
-        ++stats.bands;
-        const std::uint32_t middle = (low + high) / 2;
-        if (fy < fbt_dequantise(fbt_band_end(words, middle))) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return words[1 + (bands + 1) / 2 + low];
-}
-
 /// First feature, in order, whose parity is odd; else what is left (FBT §4.5).
 void find_region(FbtRegion& region, const FbtTexture& texture, std::uint32_t record, double fx, double fy,
                  FbtQueryStats& stats) {
@@ -156,38 +140,34 @@ void find_region(FbtRegion& region, const FbtTexture& texture, std::uint32_t rec
     }
 }
 
-double clamp_coordinate(double v, std::uint32_t size) {
-    return v > 0 ? std::min(v, static_cast<double>(size)) : 0.0; // NaN becomes 0
-}
-
 std::uint32_t base_texel(double v, std::uint32_t size) { return std::min(static_cast<std::uint32_t>(v), size - 1); }
 
 } // namespace
+
+FbtRegion fbt_whole_region(std::uint32_t texel, std::uint32_t i, std::uint32_t j) {
+    FbtRegion region;
+    region.i = i, region.j = j;
+    if (texel >> 30 == kFbtKindShaded) {
+        region.model = texel >> 28 & 3u;
+        region.sample = texel & kFbtSampleMask;
+    } else if ((texel & kFbtOpaque) != 0) {
+        region.sample = texel | 0xff000000u;
+    }
+    return region;
+}
 
 FbtRegion fbt_locate_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy,
                            FbtQueryStats* stats) {
     FbtQueryStats ignored;
     FbtQueryStats& counts = stats ? *stats : ignored;
     ++counts.queries;
+    i = std::min(i, texture.width - 1), j = std::min(j, texture.height - 1);
+    const std::uint32_t texel = fbt_texel(texture, i, j);
+    if (!fbt_has_features(texel)) return fbt_whole_region(texel, i, j);
+    const FbtBands bands(texture, texel);
     FbtRegion region;
-    region.i = std::min(i, texture.width - 1);
-    region.j = std::min(j, texture.height - 1);
-    const std::uint32_t texel = texture.texels[std::size_t{region.j} * texture.width + region.i];
-    const std::uint32_t address = texel & kFbtAddressMask;
-    switch (texel >> 30) {
-    case kFbtKindSolid:
-        region.sample = (texel & kFbtOpaque) != 0 ? texel | 0xff000000u : 0;
-        break;
-    case kFbtKindShaded:
-        region.model = texel >> 28 & 3u;
-        region.sample = texel & kFbtSampleMask;
-        break;
-    case kFbtKindSingle:
-        find_region(region, texture, address, fx, fy, counts);
-        break;
-    default:
-        find_region(region, texture, find_band(texture, address, fy, counts), fx, fy, counts);
-    }
+    region.i = i, region.j = j;
+    find_region(region, texture, bands.list(bands.find(fy, &counts.bands)), fx, fy, counts);
     return region;
 }
 
@@ -207,13 +187,13 @@ FbtColor fbt_shade(const FbtTexture& texture, const FbtRegion& region, double fx
 }
 
 FbtRegion fbt_locate(const FbtTexture& texture, double x, double y) {
-    const double cx = clamp_coordinate(x, texture.width), cy = clamp_coordinate(y, texture.height);
+    const double cx = fbt_clamp_coordinate(x, texture.width), cy = fbt_clamp_coordinate(y, texture.height);
     const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
     return fbt_locate_local(texture, i, j, cx - i, cy - j);
 }
 
 FbtColor fbt_sample(const FbtTexture& texture, double x, double y) {
-    const double cx = clamp_coordinate(x, texture.width), cy = clamp_coordinate(y, texture.height);
+    const double cx = fbt_clamp_coordinate(x, texture.width), cy = fbt_clamp_coordinate(y, texture.height);
     const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
     return fbt_sample_local(texture, i, j, cx - i, cy - j);
 }

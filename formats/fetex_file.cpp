@@ -125,7 +125,8 @@ Words fbt_header_words(const FbtTexture& t) {
                    t.traits.directions,
                    t.traits.max_entries,
                    t.traits.max_bands,
-                   static_cast<std::uint32_t>(t.records.size() / 4)};
+                   static_cast<std::uint32_t>(t.records.size() / 4),
+                   t.traits.max_depth};
     words.resize(kFbtHeaderWords, 0);
     return words;
 }
@@ -182,7 +183,8 @@ std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, 
     out.traits.max_entries = w[7];
     out.traits.max_bands = w[8];
     records = w[9];
-    for (std::size_t k = 10; k < kFbtHeaderWords; ++k)
+    out.traits.max_depth = w[10];
+    for (std::size_t k = 11; k < kFbtHeaderWords; ++k)
         if (w[k] != 0) return bad(k, "reserved words aren't 0");
     return std::nullopt;
 }

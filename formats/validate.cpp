@@ -11,7 +11,7 @@
 namespace fetex {
 namespace {
 
-constexpr std::uint32_t kEntryBits = (1u << 21) - 1;
+constexpr std::uint32_t kEntryBits = (1u << 24) - 1;
 constexpr std::uint32_t kQuantisedZero = 0x4000, kQuantisedOne = 0xc000;
 
 /// How far, in steps, a coordinate of a quadratic or cubic with these quantised control values moves against its
@@ -96,6 +96,7 @@ class Checker {
     void walk_directory(std::uint32_t address);
     void check_list(std::uint32_t first);
     bool check_entry(std::uint32_t at);
+    void check_depth(std::uint32_t at, const FbtEntry& entry);
     bool check_run(std::uint32_t at, const FbtEntry& entry);
     void check_curve(std::size_t word, std::uint32_t degree);
     /// Model and sample of a region; where: a texel or a record.
@@ -258,6 +259,7 @@ bool Checker::check_entry(std::uint32_t at) {
     } else if (entry.rest_model() != 0) {
         in_record(FindingCode::FbtStraySample, at, "a rest before the last entry");
     }
+    check_depth(at, entry);
     for (std::size_t k = entry.rest_word() + (entry.last() ? 1 : 0); k < std::size_t{4} * entry.records(); ++k)
         if (words[k] != 0) in_record(FindingCode::FbtPadding, at, "padding of an entry isn't 0");
     if (entry.pieces() == 0) {
@@ -272,6 +274,20 @@ bool Checker::check_entry(std::uint32_t at) {
         in_record(FindingCode::FbtStraySample, at, "a sample on a run that isn't the last of its feature");
     }
     return check_run(at, entry);
+}
+
+/// Post-order: what follows a feature encloses it, or is beside it or inside what is.
+void Checker::check_depth(std::uint32_t at, const FbtEntry& entry) {
+    traits_.max_depth = std::max(traits_.max_depth, entry.depth());
+    const std::uint32_t next = at + entry.records();
+    bool wrong = false;
+    if (entry.last()) {
+        wrong = entry.depth() != 0;
+    } else if (next < record_count_) {
+        const std::uint32_t depth = FbtEntry(record(next)[0]).depth();
+        wrong = entry.last_run() ? depth + 1 < entry.depth() : depth != entry.depth();
+    }
+    if (wrong) in_record(FindingCode::FbtNesting, at, "the depth doesn't fit what follows");
 }
 
 bool Checker::check_run(std::uint32_t at, const FbtEntry& entry) {
@@ -359,6 +375,7 @@ void Checker::check_traits() {
     differs("directions", stated.directions, real.directions);
     differs("max_entries", stated.max_entries, real.max_entries);
     differs("max_bands", stated.max_bands, real.max_bands);
+    differs("max_depth", stated.max_depth, real.max_depth);
 }
 
 } // namespace

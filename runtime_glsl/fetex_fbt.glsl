@@ -217,10 +217,9 @@ bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
 }
 
 #if FETEX_FBT_BANDS
-// Record of the entry list of the band that holds y. At most 2^15 bands: their ends are different u16.
-uint fetexFbtFindBand(uint directory, float y) {
-    uint bands = fetexFbtRecord(directory).x;
-    uint low = 0u, high = bands - 1u;
+// The band that holds y. At most 2^15 bands: their ends are different u16.
+uint fetexFbtFindBandIndex(uint directory, float y) {
+    uint low = 0u, high = fetexFbtRecord(directory).x - 1u;
     for (int k = 0; k < 16 && low < high; ++k) {
         uint middle = (low + high) >> 1u;
         uint at = 1u + (middle >> 1u);
@@ -228,7 +227,13 @@ uint fetexFbtFindBand(uint directory, float y) {
         float end = float((middle & 1u) == 0u ? ends & 0xffffu : ends >> 16u) * (1.0 / 32768.0) - 0.5;
         if (y < end) high = middle; else low = middle + 1u;
     }
-    uint list = 1u + ((bands + 1u) >> 1u) + low;
+    return low;
+}
+
+// Record of the entry list of the band that holds y.
+uint fetexFbtFindBand(uint directory, float y) {
+    uint bands = fetexFbtRecord(directory).x;
+    uint list = 1u + ((bands + 1u) >> 1u) + fetexFbtFindBandIndex(directory, y);
     return fetexFbtWord(fetexFbtRecord(directory + (list >> 2u)), list & 3u);
 }
 #endif

@@ -57,6 +57,7 @@ void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
     a.bands |= b.bands, a.corners |= b.corners, a.patches |= b.patches, a.shared |= b.shared,
         a.translucent |= b.translucent;
     a.max_entries = std::max(a.max_entries, b.max_entries), a.max_bands = std::max(a.max_bands, b.max_bands);
+    a.max_depth = std::max(a.max_depth, b.max_depth);
 }
 
 class Builder {

@@ -2,6 +2,7 @@
 #include "compiler/fbt/features.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "formats/fbt.h"
@@ -295,17 +296,40 @@ bool FeatureBuilder::order_features(std::span<SimpleFeature> features) {
     for (std::uint32_t k = 0; k < features.size(); ++k) {
         if (!find_depth(features, k)) return false;
     }
-    order_.resize(features.size());
-    std::iota(order_.begin(), order_.end(), 0u);
-    std::sort(order_.begin(), order_.end(),
-              [&](std::uint32_t x, std::uint32_t y) { return depth_[x] != depth_[y] ? depth_[x] > depth_[y] : x < y; });
+    order_by_subtree(features);
     sorted_.clear();
-    for (std::uint32_t k : order_) {
+    for (const std::uint32_t k : order_) {
         out_->regions.push_back(region_[features[k].inside]);
         sorted_.push_back(features[k]);
+        sorted_.back().depth = depth_[k];
     }
     std::copy(sorted_.begin(), sorted_.end(), features.begin());
     return find_rest(features);
+}
+
+/// Each feature right after those inside it (post-order), siblings in the order of the features.
+void FeatureBuilder::order_by_subtree(std::span<const SimpleFeature> features) {
+    children_.clear();
+    for (std::uint32_t k = 0; k < features.size(); ++k)
+        children_.emplace_back(parent_of(features[k].outside), k);
+    std::sort(children_.begin(), children_.end(), std::greater<>());
+    order_.clear(), path_.clear(), opened_.assign(features.size(), false);
+    const auto open = [&](std::uint32_t parent) { // the first sibling ends on top
+        const auto by_parent = [](const auto& child) { return child.first; };
+        for (const auto& child : std::ranges::equal_range(children_, parent, std::greater<>(), by_parent))
+            path_.push_back(child.second);
+    };
+    open(kNone);
+    while (!path_.empty()) {
+        const std::uint32_t k = path_.back();
+        if (opened_[k]) {
+            order_.push_back(k);
+            path_.pop_back();
+        } else {
+            opened_[k] = true;
+            open(k);
+        }
+    }
 }
 
 std::uint32_t FeatureBuilder::parent_of(std::uint32_t face) const {

@@ -25,6 +25,7 @@ struct SimpleFeature {
     std::uint32_t first_step = 0, steps = 0; ///< in TexelFeatures::steps
     std::uint32_t ray = 0;                   ///< fetex::kFbtRay…
     std::uint32_t inside = 0, outside = 0;   ///< band faces
+    std::uint32_t depth = 0;                 ///< features of the band that it lies inside of
 };
 
 struct Band {
@@ -92,6 +93,7 @@ class FeatureBuilder {
     void set_inside(SimpleFeature& f, std::uint32_t p, bool left) const;
     bool order_features(std::span<SimpleFeature> features);
     bool find_depth(std::span<const SimpleFeature> features, std::uint32_t k);
+    void order_by_subtree(std::span<const SimpleFeature> features);
     bool find_rest(std::span<const SimpleFeature> features);
     /// The feature that has the face inside, or kNone.
     [[nodiscard]] std::uint32_t parent_of(std::uint32_t face) const;
@@ -117,9 +119,11 @@ class FeatureBuilder {
     std::vector<std::uint32_t> region_;        ///< per face of *sweep_ (roots)
     std::vector<std::uint32_t> first_portion_; ///< of the first sweep, per sub-edge
     std::vector<std::array<std::uint32_t, 2>> at_node_;
-    std::vector<std::uint32_t> chain_;                             ///< portions
-    std::vector<bool> downward_;                                   ///< walked from top to bottom
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> parents_; ///< inside face → feature
+    std::vector<std::uint32_t> chain_;                              ///< portions
+    std::vector<bool> downward_;                                    ///< walked from top to bottom
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> parents_;  ///< inside face → feature
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> children_; ///< (parent, feature), descending
+    std::vector<bool> opened_;
     std::vector<std::uint32_t> depth_, path_, order_;
     std::vector<SimpleFeature> sorted_;
 };

@@ -159,9 +159,10 @@ void RowWriter::prepare(const TexelMap& texel, const TexelFeatures& features) {
             const std::size_t first = runs_.runs.size();
             make_runs(map_, texel, features.steps_of(f), runs_, pieces);
             const ReadyFeature ready{static_cast<std::uint32_t>(first),
-                                     static_cast<std::uint32_t>(runs_.runs.size() - first), f.ray, regions[k]};
+                                     static_cast<std::uint32_t>(runs_.runs.size() - first), f.ray, regions[k], f.depth};
             if (cancel_out(runs_, first) || shadowed(b, ready)) {
                 runs_.truncate(first);
+                lift_subtree(b, f.depth);
             } else {
                 features_.push_back(ready);
                 ++b.features;
@@ -174,12 +175,20 @@ void RowWriter::prepare(const TexelMap& texel, const TexelFeatures& features) {
     out_.stats.pieces_demoted += pieces.demoted;
 }
 
+/// What lay inside a feature that goes, at the end of the band so far, lies inside the one around that now.
+void RowWriter::lift_subtree(const ReadyBand& band, std::uint32_t depth) {
+    for (std::size_t k = features_.size(); k > band.first_feature && features_[k - 1].depth > depth; --k)
+        --features_[k - 1].depth;
+}
+
 std::uint32_t RowWriter::write_band(const ReadyBand& band) {
     const std::uint32_t first = next_record();
     std::uint32_t entry = first, entries = 0;
     for (const ReadyFeature& f : features_of(band)) {
         ++out_.stats.features;
         out_.traits.directions |= 1u << f.ray;
+        const std::uint32_t depth = std::min(f.depth, kFbtMaxDepth);
+        out_.traits.max_depth = std::max(out_.traits.max_depth, depth);
         for (const Run& run : runs_of(f)) {
             end_record();
             entry = next_record();
@@ -191,7 +200,7 @@ std::uint32_t RowWriter::write_band(const ReadyBand& band) {
             out_.traits.max_degree = std::max(out_.traits.max_degree, degree);
             write_run(run,
                       run.pieces | (degree << 10) | (f.ray << 12) | (last_run ? kFbtEntryLastRun : 0) |
-                          (last ? kFbtEntryLast : 0),
+                          (last ? kFbtEntryLast : 0) | (depth << kFbtDepthShift),
                       f.region, last_run);
         }
     }

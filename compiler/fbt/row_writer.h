@@ -69,6 +69,7 @@ class RowWriter {
     struct ReadyFeature {
         std::uint32_t first_run = 0, runs = 0; ///< in runs_
         std::uint32_t ray = 0, region = 0;
+        std::uint32_t depth = 0; ///< in how many other features of its band
     };
     /// A band ready to be written.
     struct ReadyBand {
@@ -97,6 +98,7 @@ class RowWriter {
     /// Patches are in the records then.
     void ready_samples();
     void ready_sample(std::uint32_t region);
+    void lift_subtree(const ReadyBand& band, std::uint32_t depth);
     [[nodiscard]] std::uint32_t next_word() const { return static_cast<std::uint32_t>(out_.records.size()); }
     [[nodiscard]] std::uint32_t next_record() const { return next_word() / 4; }
     void note_sample(const RegionSample& sample); ///< in the traits

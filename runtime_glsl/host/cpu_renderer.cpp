@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 #include "runtime_glsl/host/renderer.h"
@@ -52,6 +53,14 @@ Image render_samples(const ImageAxis& columns, const ImageAxis& rows, const Rend
     return image;
 }
 
+/// The part of a pixel around a sample, as fbt_sample_area takes it.
+FbtPixel area_of_sample(const ImageAxis& columns, const ImageAxis& rows) {
+    const auto half = [](const ImageAxis& axis) {
+        return std::min(0.5 * std::ldexp(static_cast<double>(axis.step()), -32), 0.5);
+    };
+    return {half(columns), half(rows)};
+}
+
 } // namespace
 
 std::vector<std::uint8_t> to_rgba8(const Image& image) {
@@ -65,9 +74,13 @@ Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const Ren
     if (auto bad = check_view(view, size)) return *bad;
     const ImageAxis columns(view.x, view.w, texture.width, size.width, size.supersample);
     const ImageAxis rows(view.y, view.h, texture.height, size.height, size.supersample);
+    FbtPixel pixel = area_of_sample(columns, rows);
+    pixel.exact = size.filter == Filter::ExactArea;
     return render_samples(columns, rows, size, threads, [&](std::int64_t x, std::int64_t y) -> Rgba {
         const BaseAndLocal column = base_and_local(x, texture.width), row = base_and_local(y, texture.height);
-        const FbtColor c = fbt_sample_local(texture, column.base, row.base, column.local, row.local);
+        const FbtColor c = size.filter != Filter::Point
+                               ? fbt_sample_area_local(texture, column.base, row.base, column.local, row.local, pixel)
+                               : fbt_sample_local(texture, column.base, row.base, column.local, row.local);
         return {c.r, c.g, c.b, c.a};
     });
 }

@@ -2,6 +2,7 @@
 #include "runtime_glsl/host/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 
@@ -57,14 +58,21 @@ struct Renderer::State {
     GLint max_texture_side = 0, max_buffer_texels = 0;
     GLuint vertex_array = 0;
     Target target;
-    Program fbt_program, bitmap_program, filtered_program, field_program;
-    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0, field_texture = 0;
+    std::array<Program, 3> fbt_programs; ///< by Filter
+    Program bitmap_program, filtered_program, field_program;
+    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0,
+           field_texture = 0;
+    FbtTexture fbt_traits; ///< nothing but the traits of the texture uploaded last
     std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
     RuntimeStatus check_limits(const FbtTexture& texture) const;
     void delete_fbt();
+    RuntimeStatus build_fbt_program(Filter filter);
+    [[nodiscard]] const Program& fbt_program(Filter filter) const {
+        return fbt_programs[static_cast<std::size_t>(filter)];
+    }
     void upload_records(const FbtTexture& texture);
     void upload_record_buffer(const FbtTexture& texture);
     RuntimeStatus upload_fbt(const FbtTexture& texture);
@@ -115,9 +123,11 @@ void Renderer::State::delete_fbt() {
     gl().DeleteTextures(1, &corner_texture);
     gl().DeleteTextures(1, &record_texture);
     gl().DeleteBuffers(1, &record_buffer);
-    if (fbt_program.id != 0) gl().DeleteProgram(fbt_program.id);
+    for (Program& program : fbt_programs) {
+        if (program.id != 0) gl().DeleteProgram(program.id);
+        program = {};
+    }
     texel_texture = corner_texture = record_texture = record_buffer = 0;
-    fbt_program = {};
 }
 
 /// Whole rows, then the rest of the last; a texture of one row is only as wide as it must be.
@@ -151,12 +161,9 @@ void Renderer::State::upload_record_buffer(const FbtTexture& texture) {
 
 RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     if (auto bad = check_limits(texture)) return bad;
-    auto program = build_program(gl(), view_vertex_source(options.dialect),
-                                 fbt_fragment_source(options.dialect, texture, options.texture_buffer),
-                                 {"fetexFbtTexels", "fetexFbtRecords", "fetexFbtCorners"});
-    if (!program) return program.error();
     delete_fbt();
-    fbt_program = program.value();
+    fbt_traits.traits = texture.traits;
+    if (auto bad = build_fbt_program(Filter::Point)) return bad;
     fbt_width = texture.width;
     fbt_height = texture.height;
     texel_texture = make_texture(gl(), kTexelUnit, GL_R32UI, texture.width, texture.height, GL_RED_INTEGER,
@@ -171,6 +178,18 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
         upload_records(texture);
     }
     return gl_error(gl(), "uploading a texture");
+}
+
+/// Of the texture uploaded last. Area sampling is compiled when it is first drawn.
+RuntimeStatus Renderer::State::build_fbt_program(Filter filter) {
+    Program& program = fbt_programs[static_cast<std::size_t>(filter)];
+    if (program.id != 0) return std::nullopt;
+    auto built = build_program(gl(), view_vertex_source(options.dialect),
+                               fbt_fragment_source(options.dialect, fbt_traits, options.texture_buffer, filter),
+                               {"fetexFbtTexels", "fetexFbtRecords", "fetexFbtCorners"});
+    if (!built) return built.error();
+    program = built.value();
+    return std::nullopt;
 }
 
 RuntimeStatus Renderer::State::check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,
@@ -251,10 +270,11 @@ Layer Renderer::State::bind(Sampler sampler) const {
         bind_field();
         return {field_program, field_width, field_height, kBitmapShift};
     case Sampler::Fbt:
+    case Sampler::FbtArea:
         break;
     }
     bind_fbt();
-    return {fbt_program, fbt_width, fbt_height, 0};
+    return {fbt_program(sampler == Sampler::FbtArea ? Filter::Area : Filter::Point), fbt_width, fbt_height, 0};
 }
 
 void Renderer::State::draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
@@ -326,11 +346,13 @@ RuntimeStatus Renderer::upload_bitmap(std::span<const std::uint8_t> rgba8, std::
 
 Outcome<Image> Renderer::render(const View& view, const RenderSize& size) {
     if (auto bad = check_view(view, size)) return *bad;
-    if (state_->fbt_program.id == 0) return RuntimeError{RuntimeErrc::NothingUploaded, "no texture was uploaded"};
+    if (state_->fbt_program(Filter::Point).id == 0)
+        return RuntimeError{RuntimeErrc::NothingUploaded, "no texture was uploaded"};
     const CurrentContext current(*state_->context);
     if (!current.ok()) return kNotCurrent;
+    if (auto bad = state_->build_fbt_program(size.filter)) return *bad;
     state_->bind_fbt();
-    return state_->render(state_->fbt_program, view, size, state_->fbt_width, state_->fbt_height, 0);
+    return state_->render(state_->fbt_program(size.filter), view, size, state_->fbt_width, state_->fbt_height, 0);
 }
 
 bool Renderer::has_bitmap() const { return state_->bitmap_texture != 0; }
@@ -375,6 +397,9 @@ Outcome<double> Renderer::time_draws(Sampler sampler, const View& view, std::uin
         return RuntimeError{RuntimeErrc::GlTooOld, "this context has no timer queries"};
     const CurrentContext current(*state.context);
     if (!current.ok()) return kNotCurrent;
+    if (sampler == Sampler::FbtArea && state.fbt_program(Filter::Point).id != 0) {
+        if (auto bad = state.build_fbt_program(Filter::Area)) return *bad;
+    }
     const Layer layer = state.bind(sampler);
     if (layer.program.id == 0 || side > kTileSide)
         return RuntimeError{RuntimeErrc::NothingUploaded, "nothing was uploaded, or the side is beyond one tile"};

@@ -43,6 +43,9 @@ class ImageAxis {
         return tiles_[pixel / kTileSide].at(pixel % kTileSide * supersample_ + sample);
     }
 
+    /// Between samples, in 2^-32 texel.
+    [[nodiscard]] std::int64_t step() const { return tiles_.front().step; }
+
   private:
     std::uint32_t supersample_;
     std::vector<AxisGrid> tiles_;

@@ -61,17 +61,22 @@ std::string fbt_specialisation(const FbtTraits& traits) {
     return define("FETEX_FBT_FEATURES", traits.max_entries > 0) + define("FETEX_FBT_DEGREES", traits.degrees) +
            define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_CORNERS", traits.corners) +
            define("FETEX_FBT_PATCHES", traits.patches) + define("FETEX_FBT_SHARED", traits.shared) +
-           define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions);
+           define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions) +
+           define("FETEX_FBT_MAX_DEPTH", traits.max_depth);
 }
 
-std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer) {
-    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl");
+std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
+    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl") +
+           (filter == Filter::Point
+                ? ""
+                : define("FETEX_FBT_AREA_EXACT", filter == Filter::ExactArea) + file_text("fetex_fbt_area.glsl"));
 }
 
 std::string view_vertex_source(Dialect dialect) { return shader_prelude(dialect) + file_text("view.vert.glsl"); }
 
-std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer) {
-    return fbt_library_source(dialect, texture, texture_buffer) + file_text("view.glsl") + file_text("fbt.frag.glsl");
+std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
+    return fbt_library_source(dialect, texture, texture_buffer, filter) + file_text("view.glsl") +
+           file_text(filter == Filter::Point ? "fbt.frag.glsl" : "fbt_area.frag.glsl");
 }
 
 std::string bitmap_fragment_source(Dialect dialect) {

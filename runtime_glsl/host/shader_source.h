@@ -7,6 +7,7 @@
 #include <string>
 
 #include "formats/fbt.h"
+#include "runtime_glsl/host/image.h"
 
 namespace fetex {
 
@@ -25,14 +26,16 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 /// The macros that leave out of the sampler what an asset doesn't need. "" instead leaves everything in.
 std::string fbt_specialisation(const FbtTraits& traits);
 
-/// Prelude, specialisation and fetex_fbt.glsl, to be followed by a fragment shader. Only the traits of the
-/// texture are looked at.
-std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
+/// Prelude, specialisation, fetex_fbt.glsl and, for area sampling, fetex_fbt_area.glsl, to be followed by a fragment
+/// shader. Only the traits of the texture are looked at.
+std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
+                               Filter filter = Filter::Point);
 
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, the bitmap
 /// through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
-std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false);
+std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
+                                Filter filter = Filter::Point);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

@@ -125,6 +125,33 @@ TEST_P(Conformance, supersamplesAsTheReferenceDoes) {
     EXPECT_LE(different, reference.value().rgba.size() / 500);
 }
 
+/// Random chains cross and end anywhere: what area sampling makes of them has no meaning, but is the same. A pixel may
+/// differ where two texels have equal parts of it, or a random chain's area changes its sign.
+TEST_P(Conformance, areaSamplesAsTheReferenceDoes) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        RandomFbtOptions options{.width = 12, .height = 9};
+        if (seed == 2) options.max_features = 12;
+        if (seed == 3) options.degrees = 2, options.corners = options.patches = options.bands = false;
+        const FbtTexture texture = random_fbt(200 + seed, options);
+        ASSERT_FALSE(renderer_->upload(texture).has_value());
+        for (const fetex::Filter filter : {fetex::Filter::Area, fetex::Filter::ExactArea}) {
+            for (const double magnification : {1.0, 2.5, 100.0, 3000.0}) {
+                const double extent = 64 / magnification;
+                const fetex::View view{0.3, 0.4, extent / texture.width, extent / texture.height};
+                const fetex::RenderSize size{64, 64, 1, filter};
+                const auto reference = fetex::render_cpu(texture, view, size);
+                const auto drawn = renderer_->render(view, size);
+                ASSERT_TRUE(reference.ok() && drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
+                std::size_t different = 0;
+                for (std::size_t k = 0; k < reference.value().rgba.size(); ++k) // NaN differs
+                    different += !(std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) <= kColorStep);
+                EXPECT_LE(different, reference.value().rgba.size() / 1000)
+                    << "seed " << seed << ", " << magnification << " px/texel, filter " << static_cast<int>(filter);
+            }
+        }
+    }
+}
+
 TEST_P(Conformance, drawsTilesWithoutSeams) {
     const FbtTexture texture = random_fbt(12, {.width = 40, .height = 33});
     ASSERT_FALSE(renderer_->upload(texture).has_value());

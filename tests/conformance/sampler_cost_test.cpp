@@ -67,10 +67,12 @@ TEST_F(SamplerCosts, fbtStaysAFewPlainLookups) {
         std::printf("  degree %u:", degree);
         for (const std::uint32_t percent : {0u, 5u, 20u, 100u}) {
             ASSERT_FALSE(renderer_->upload(simple_texture(degree, percent)).has_value());
-            const SamplerCost cost = cost_of(Sampler::Fbt);
-            std::printf(" %.2f (%.2f-%.2f)", cost.median, cost.lower_quartile, cost.upper_quartile);
+            const SamplerCost cost = cost_of(Sampler::Fbt), area = cost_of(Sampler::FbtArea);
+            std::printf("  %.2f (%.2f-%.2f), area %.2f", cost.median, cost.lower_quartile, cost.upper_quartile,
+                        area.median);
             EXPECT_GT(cost.median, 1);
             EXPECT_LT(cost.median, 25);
+            EXPECT_LT(area.median, 50);
         }
         std::printf("\n");
     }

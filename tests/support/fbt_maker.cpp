@@ -24,7 +24,7 @@ std::uint32_t append_list(Words& records, const std::vector<MadeRun>& runs, Made
     for (const MadeRun& run : runs) {
         next_record(records);
         const bool last = &run == &runs.back();
-        records.push_back(run.pieces | run.degree << 10 | run.direction << 12 |
+        records.push_back(run.pieces | run.degree << 10 | run.direction << 12 | run.depth << fetex::kFbtDepthShift |
                           (run.last ? fetex::kFbtEntryLastRun | run.inside.model << 16 : 0) |
                           (last ? fetex::kFbtEntryLast | rest.model << 18 : 0) |
                           (run.points.empty() ? fetex::kFbtEntryShared : 0));

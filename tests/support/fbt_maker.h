@@ -21,6 +21,7 @@ struct MadeRun {
     std::uint32_t shared_from = 0; ///< if there are no points
     bool last = true;              ///< run of its feature
     MadeRegion inside;             ///< of the last run
+    std::uint32_t depth = 0;
 };
 
 /// Appends an entry list to the records; where it begins. first_words: of each run's points.

@@ -127,6 +127,11 @@ std::uint32_t Generator::list() {
             runs.push_back(std::move(run));
         }
     }
+    std::uint32_t depth = 0;
+    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+        if (run->last && run != runs.rbegin()) depth = std::min(below(depth + 2), fetex::kFbtMaxDepth);
+        run->depth = depth;
+    }
     std::vector<std::uint32_t> first_words;
     const MadeRegion rest = region();
     const std::uint32_t first = append_list(texture_.records, runs, rest, &first_words);

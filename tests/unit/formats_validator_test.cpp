@@ -140,7 +140,8 @@ std::vector<Fault> faults() {
          }},
         {"no pieces", C::FbtDegree, [](FbtTexture& t) { word(t, 1, 0) = 1 << 10; }},
         {"degree 0", C::FbtDegree, [](FbtTexture& t) { word(t, 1, 0) = 2; }},
-        {"a lone rest that isn't last", C::FbtEmptyRun, [](FbtTexture& t) { word(t, 1, 0) = word(t, 1, 2) = word(t, 1, 3) = 0; }},
+        {"a lone rest that isn't last", C::FbtEmptyRun,
+         [](FbtTexture& t) { word(t, 1, 0) = word(t, 1, 2) = word(t, 1, 3) = 0; }},
         {"a lone rest with a ray", C::FbtEmptyRun,
          [](FbtTexture& t) {
              t.texels[0] = kFbtKindSingle << 30 | 8;
@@ -151,7 +152,7 @@ std::vector<Fault> faults() {
              t.texels[0] = kFbtKindSingle << 30 | 8;
              word(t, 8, 1) = 0xff000000;
          }},
-        {"reserved bits of an entry", C::FbtReservedBits, [](FbtTexture& t) { word(t, 3, 0) |= 1u << 21; }},
+        {"reserved bits of an entry", C::FbtReservedBits, [](FbtTexture& t) { word(t, 3, 0) |= 1u << 24; }},
         {"points run off", C::FbtPieceAddress, [](FbtTexture& t) { word(t, 6, 0) |= kFbtMaxPieces; }},
         {"shared points beyond", C::FbtPieceAddress,
          [](FbtTexture& t) {
@@ -168,9 +169,7 @@ std::vector<Fault> faults() {
              word(t, 6, 2) = 0xffffffff;
          }},
         {"unfinished feature", C::FbtUnfinishedFeature,
-         [](FbtTexture& t) {
-             word(t, 3, 0) = 1 | 3 << 10 | kFbtEntryLast | kFbtModelPatch << 18;
-         }},
+         [](FbtTexture& t) { word(t, 3, 0) = 1 | 3 << 10 | kFbtEntryLast | kFbtModelPatch << 18; }},
         {"sample in the middle of a feature", C::FbtStraySample, [](FbtTexture& t) { word(t, 1, 1) = 0xff000000; }},
         {"model in the middle of a feature", C::FbtStraySample, [](FbtTexture& t) { word(t, 1, 0) |= 1u << 16; }},
         {"rest in the middle of a list", C::FbtStraySample, [](FbtTexture& t) { word(t, 1, 0) |= 1u << 18; }},
@@ -201,6 +200,11 @@ std::vector<Fault> faults() {
         {"wrong translucent", C::FbtTraitsMismatch, [](FbtTexture& t) { t.traits.translucent = false; }},
         {"wrong directions", C::FbtTraitsMismatch, [](FbtTexture& t) { t.traits.directions = 15; }},
         {"wrong max_entries", C::FbtTraitsMismatch, [](FbtTexture& t) { t.traits.max_entries = 3; }},
+        {"wrong max_depth", C::FbtTraitsMismatch, [](FbtTexture& t) { t.traits.max_depth = 1; }},
+        {"deeper than what it lies in", C::FbtNesting, [](FbtTexture& t) { word(t, 6, 0) |= 1u << kFbtDepthShift; }},
+        {"two deeper than what follows", C::FbtNesting, [](FbtTexture& t) { word(t, 1, 0) |= 2u << kFbtDepthShift; }},
+        {"a run deeper than its feature", C::FbtNesting,
+         [](FbtTexture& t) { word(t, 1, 0) = (word(t, 1, 0) & ~kFbtEntryLastRun) | 1u << kFbtDepthShift; }},
         {"wrong max_bands", C::FbtTraitsMismatch, [](FbtTexture& t) { t.traits.max_bands = 3; }},
     };
 }

@@ -59,7 +59,8 @@ FbtTexture needing(std::uint32_t degrees, std::uint32_t switches, std::uint32_t 
     return t;
 }
 
-/// What an asset can need: all sets of degrees with bands, corners, alpha, patches, shared points; and all kinds of ray sets.
+/// What an asset can need: all sets of degrees with bands, corners, alpha, patches, shared points; and all kinds of ray
+/// sets.
 std::vector<FbtTexture> all_specialisations() {
     std::vector<FbtTexture> all;
     for (std::uint32_t degrees = 0; degrees < 16; degrees += 2)
@@ -83,7 +84,9 @@ TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
                 // Where records lie doesn't interact with the rest; ES 3.0 has no texture buffers.
                 if (buffer && (dialect == Dialect::Essl300 || texture.traits.degrees != 14)) continue;
                 const fs::path file = folder_ / (std::to_string(count++) + ".frag");
-                std::ofstream(file) << fbt_fragment_source(dialect, texture, buffer);
+                // Area sampling includes the plain sampler.
+                const Filter filter = count % 5 == 0 ? Filter::ExactArea : Filter::Area;
+                std::ofstream(file) << fbt_fragment_source(dialect, texture, buffer, filter);
                 if (dialect == Dialect::Vulkan450) { // -V links all files of a call
                     ASSERT_EQ(std::system((tool + " " + file.string() + " >" + (folder_ / "log").string()).c_str()), 0)
                         << file;
@@ -93,6 +96,7 @@ TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
             }
         }
         EXPECT_EQ(files.empty() ? "" : run(files, "list", "xargs glslangValidator <@"), "") << dialect_name(dialect);
+        EXPECT_EQ(run(fbt_fragment_source(dialect, needing(14, 31, 15)), "point.frag", tool + " @"), "");
         EXPECT_EQ(run(view_vertex_source(dialect), "view.vert", tool + " @"), "");
         EXPECT_EQ(run(bitmap_fragment_source(dialect), "bitmap.frag", tool + " @"), "");
         EXPECT_EQ(run(filtered_bitmap_fragment_source(dialect), "filtered.frag", tool + " @"), "");
@@ -110,11 +114,12 @@ TEST_F(Shaders, compileWithNothingSpecialised) {
     // The plain files, as an engine uses them: prelude, library, a main of its own.
     const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
     const std::string main_text = "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
-                                  "void main() { color = fetexFbtSample(uv); }\n";
+                                  "void main() { color = fetexFbtSample(uv) + fetexFbtSampleArea(uv, vec2(0.1)); }\n";
     for (const Dialect dialect : kDialects) {
         std::stringstream text;
         text << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        text << std::ifstream(root + "fetex_fbt.glsl").rdbuf() << main_text;
+        text << std::ifstream(root + "fetex_fbt.glsl").rdbuf() << std::ifstream(root + "fetex_fbt_area.glsl").rdbuf()
+             << main_text;
         ASSERT_GT(text.str().size(), 5000u);
         const std::string tool =
             dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
@@ -128,7 +133,7 @@ TEST_F(Shaders, crossToHlslMetalAndEs) {
     const std::vector<FbtTexture> all = all_specialisations();
     const fs::path binary = folder_ / "shader.spv";
     for (std::size_t k = 0; k < all.size(); k += 7) {
-        ASSERT_EQ(run(fbt_fragment_source(Dialect::Vulkan450, all[k]), "cross.frag",
+        ASSERT_EQ(run(fbt_fragment_source(Dialect::Vulkan450, all[k], false, Filter::Area), "cross.frag",
                       "glslangValidator -V -o " + binary.string() + " @"),
                   "");
         for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es", "--version 330 --no-es"})
@@ -143,7 +148,7 @@ TEST_F(Shaders, crossToHlslMetalAndEs) {
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
-        for (const char c : fbt_fragment_source(dialect, {}))
+        for (const char c : fbt_fragment_source(dialect, {}, false, Filter::Area))
             ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
 }
 
