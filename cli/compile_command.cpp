@@ -31,6 +31,7 @@ struct CompileCommandOptions {
     std::uint64_t max_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> no_skip;
+    bool mips = false;
     bool quiet = false;
 };
 
@@ -56,6 +57,7 @@ GridSize grid_of(const SizeValue& size, const Extent& extent) {
 fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOptions& options,
                              const fetex::FbtTexture& fbt) {
     std::string made_with = fmt::format("repr=fbt size={}x{}", fbt.width, fbt.height);
+    if (options.mips) made_with += " mips";
     if (options.scene.raster_size != 0) made_with += fmt::format(" raster-size={}", options.scene.raster_size);
     return {{"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
 }
@@ -78,7 +80,7 @@ Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& o
     auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    const CompileOptions compile_options{grid_of(options.size, scene.extent), options.threads, skip};
+    const CompileOptions compile_options{grid_of(options.size, scene.extent), options.threads, skip, options.mips};
     auto build = chosen ? compile_fbt_at_chosen_size(scene, compile_options, options.max_bytes, progress.sink())
                         : compile_fbt(scene, compile_options, progress.sink());
     if (!build) return build.error();
@@ -199,6 +201,8 @@ Command add_compile_command(CLI::App& parent) {
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
         ->excludes(size)
         ->type_name("N");
+    app->add_flag("--mips,!--no-mips", options->mips,
+                  "A mip chain too, for views of more than a texel a pixel; without (default) they need supersampling");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");

@@ -10,6 +10,7 @@
 #include "cli/fetex_input.h"
 #include "cli/messages.h"
 #include "cli/options.h"
+#include "formats/fbt_mip.h"
 
 namespace fetexc::cli {
 namespace {
@@ -110,6 +111,10 @@ Json traits_json(const fetex::FbtTraits& traits) {
             {"maxDepth", traits.max_depth}};
 }
 
+std::uint32_t mip_levels(const fetex::FbtTexture& fbt) {
+    return fbt.mips.empty() ? 0 : fetex::fbt_mip_levels(fbt.width, fbt.height);
+}
+
 Json fbt_json(const fetex::FbtTexture& fbt) {
     const auto kinds = count_kinds(fbt);
     return {{"width", fbt.width},
@@ -118,6 +123,8 @@ Json fbt_json(const fetex::FbtTexture& fbt) {
             {"texelBytes", 4 * fbt.texels.size()},
             {"cornerBytes", 4 * fbt.corners.size()},
             {"recordBytes", 4 * fbt.records.size()},
+            {"mipBytes", 4 * fbt.mips.size()},
+            {"mipLevels", mip_levels(fbt)},
             {"texels", {{"empty", kinds[0]}, {"single", kinds[1]}, {"banded", kinds[2]}}},
             {"traits", traits_json(fbt.traits)}};
 }
@@ -126,12 +133,13 @@ void print_fbt(const fetex::FbtTexture& fbt) {
     const auto kinds = count_kinds(fbt);
     const double total = static_cast<double>(fbt.width) * fbt.height;
     const auto share = [&](std::uint64_t n) { return 100 * static_cast<double>(n) / total; };
-    const std::size_t texel_bytes = 4 * (fbt.texels.size() + fbt.corners.size()), record_bytes = 4 * fbt.records.size();
+    const std::size_t texel_bytes = 4 * (fbt.texels.size() + fbt.corners.size()), record_bytes = 4 * fbt.records.size(),
+                      mip_bytes = 4 * fbt.mips.size(), bytes = texel_bytes + record_bytes + mip_bytes;
     const fetex::FbtTraits& t = fbt.traits;
     fmt::print("fbt           {} x {} texels\n", fbt.width, fbt.height);
-    fmt::print("  on the GPU  {} bytes: {} in texels, {} in curves ({:.1f} bytes a texel)\n",
-               texel_bytes + record_bytes, texel_bytes, record_bytes,
-               static_cast<double>(texel_bytes + record_bytes) / total);
+    fmt::print("  on the GPU  {} bytes: {} in texels, {} in curves{} ({:.1f} bytes a texel)\n", bytes, texel_bytes,
+               record_bytes, mip_bytes == 0 ? "" : fmt::format(", {} in {} mip levels", mip_bytes, mip_levels(fbt)),
+               static_cast<double>(bytes) / total);
     fmt::print("  texels      {:.1f}% empty, {:.1f}% with one band, {:.1f}% with more\n", share(kinds[0]),
                share(kinds[1]), share(kinds[2]));
     fmt::print("  curves      {}{}{}{}\n", t.degrees == 0 ? "none" : "", t.degrees & 2 ? "lines " : "",

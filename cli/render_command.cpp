@@ -24,7 +24,7 @@ struct RenderOptions {
     ViewValue view;
     SizeValue size{0, 0, kDefaultPixels};
     std::uint32_t supersample = 0; ///< 0: by filter
-    std::string filter = "point";
+    std::string filter = "auto";
     bool quiet = false;
 };
 
@@ -37,7 +37,8 @@ fetex::RenderSize pixels_for(const RenderOptions& options, const fetex::FbtTextu
     const PixelSize size = resolve_size(options.size, aspect);
     const fetex::Filter filter = filter_of(options.filter);
     const std::uint32_t usual = filter == fetex::Filter::Point ? kDefaultSupersample : 1;
-    return {size.width, size.height, options.supersample != 0 ? options.supersample : usual, filter};
+    const auto minification = options.filter == "point" ? fetex::Minification::Supersample : fetex::Minification::Mips;
+    return {size.width, size.height, options.supersample != 0 ? options.supersample : usual, filter, minification};
 }
 
 /// Draws the ordinary texture that the same bytes buy, to the right of the picture.
@@ -104,9 +105,9 @@ Command add_render_command(CLI::App& parent) {
         ->check(CLI::Range(1u, fetex::kMaxSupersample))
         ->type_name("N");
     app->add_option("--filter", options->filter,
-                    "A sample is the colour at a point (point, default) or the mean over its part of the pixel: area, "
-                    "from one texel, or exact, from all that it overlaps")
-        ->check(CLI::IsMember({"point", "area", "exact"}))
+                    "auto (default): colours at points, and the mip chain, if there is one, for more than a texel a "
+                    "pixel; point: no chain; area, exact: means over pixels, from one texel or from all, and the chain")
+        ->check(CLI::IsMember({"auto", "point", "area", "exact"}))
         ->type_name("NAME");
     app->add_option("--beside", options->beside,
                     "bilinear: draw to the right what an ordinary texture of the same bytes shows")

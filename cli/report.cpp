@@ -58,6 +58,14 @@ std::string fbt_text(const FbtStats& f) {
     return text;
 }
 
+std::string mips_text(const MipStats& m) {
+    if (m.levels == 0) return "";
+    return fmt::format("  mip chain  {} levels, {} bytes; of {} texels {} solid, {} trapezoids; {} areas sampled at {} "
+                       "points; {} more planar maps\n",
+                       m.levels, m.gpu_bytes, m.texels, m.texels_solid, m.trapezoids, m.areas_sampled, m.paint_samples,
+                       m.own_maps);
+}
+
 std::string joined(const std::vector<std::string>& words) {
     if (words.empty()) return "nothing";
     return fmt::format("{}", fmt::join(words, ", "));
@@ -121,6 +129,17 @@ Json fbt_json(const FbtStats& f) {
             {"partsLost", f.parts_lost}};
 }
 
+Json mips_json(const MipStats& m) {
+    return {{"levels", m.levels},
+            {"gpuBytes", m.gpu_bytes},
+            {"texels", m.texels},
+            {"texelsSolid", m.texels_solid},
+            {"trapezoids", m.trapezoids},
+            {"areasSampled", m.areas_sampled},
+            {"paintSamples", m.paint_samples},
+            {"ownMaps", m.own_maps}};
+}
+
 Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics) {
@@ -143,6 +162,7 @@ Json outcome_json(const CompileOutcome& o) {
             {"scene", scene_json(o.report.scene)},
             {"planar", planar_json(o.report.planar)},
             {"fbt", fbt_json(o.report.fbt)},
+            {"mips", mips_json(o.report.mips)},
             {"shaderPartsLeftOut", shader_parts_left_out(o.traits)},
             {"diagnostics", diagnostics_json(o.report.diagnostics)}};
 }
@@ -175,7 +195,8 @@ std::string report_text(const CompileOutcome& o) {
     text += fmt::format(
         "  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n", o.width,
         o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
-    text += scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt);
+    text +=
+        scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);
     text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
     return text;
 }

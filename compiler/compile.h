@@ -26,6 +26,7 @@ struct CompileOptions {
     GridSize size;
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
     SkipRules skip = {};  ///< nor do these
+    bool mips = false;    ///< a mip chain too (formats/fbt_mip.h), for views of more than a texel a pixel
 };
 
 /// Called from one thread at a time; fraction in [0,1].
@@ -53,10 +54,21 @@ struct FbtStats {
     std::uint64_t parts_lost = 0;        ///< parts of the picture all of whose regions collapsed (W4101)
     std::uint64_t gpu_bytes = 0;
 };
+/// Of the mip chain. Texels: those of the grids that were integrated.
+struct MipStats {
+    std::uint64_t levels = 0;
+    std::uint64_t own_maps = 0; ///< levels whose samples aren't whole blocks of texels or of a finer level's samples
+    std::uint64_t texels = 0, texels_solid = 0; ///< solid: nothing to integrate
+    std::uint64_t trapezoids = 0;               ///< exact areas, in the texels with edges
+    std::uint64_t areas_sampled = 0;            ///< texels and trapezoids of a gradient
+    std::uint64_t paint_samples = 0;
+    std::uint64_t gpu_bytes = 0; ///< FbtStats::gpu_bytes has them too
+};
 struct CompileReport {
     SceneStats scene;
     PlanarStats planar;
     FbtStats fbt;
+    MipStats mips;
     std::vector<Diagnostic> diagnostics;
 };
 

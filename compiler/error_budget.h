@@ -153,6 +153,18 @@ inline constexpr double kDistanceAccuracy = 1e-6;
 /// curve in double loses. Asking for less makes the iteration wander in its own rounding noise.
 inline constexpr double kParameterStop = 0x1p-52;
 
+/// Colour channel: a mean of a paint may be off by a quarter of a step of 8 bits (rounding it costs half a step more).
+/// A paint is smooth but for kinks, where a gradient has a stop; three Gauss points a direction err there by at
+/// most 3.5% of the change of slope across the cell, by 0.7% where it lies beyond the outer points. So a sixteenth of a
+/// step is asked for of what the points show: how far the middle one of a line is from the mean of the others, or
+/// quarters from the whole (quarters err by a quarter of what the whole does, at most).
+inline constexpr double kMeanTolerance = 1.0 / (16 * 255);
+
+/// Colour channel: by chance, or beyond the outer points, a kink may not show. The points span 0.77 of the cell; where
+/// they differ by no more than this, the change of slope is at most twice this over 0.77, and 0.9% of it (3.5% over 4)
+/// is less than a fifth of a step.
+inline constexpr double kMeanSpan = 1.0 / 32;
+
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
 
 /// Areas of trapezoids (planar/trapezoid_area), in epsilons of long double: De Casteljau of values up to M errs by less

@@ -12,6 +12,7 @@
 ///   2 banded   bits 0..29 record of its band directory
 ///   3 shaded   one region that isn't solid: bits 28..29 its model, bits 0..27 its sample
 /// Corners: none, or (width+1)×(height+1) samples, row-major: the colour at the corner (i,j) of texel (i,j).
+/// Mips: none, or a chain of smaller pictures for minification (formats/fbt_mip.h).
 /// Records: 4 words each.
 ///   band directory: word n, then n u16 y_end (quantised, two a word, the even one in the low half), then n words, the
 ///     bands' entry lists; padded to whole records. Bands are in increasing y; band k covers [y_end(k-1), y_end(k)),
@@ -72,10 +73,11 @@ struct FbtTexture {
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> corners; ///< empty if no region has the model corners
     std::vector<std::uint32_t> records;
+    std::vector<std::uint32_t> mips; ///< empty, or the samples of levels 1 … n, row-major, one level after the other
 };
 
 inline std::uint64_t fbt_gpu_bytes(const FbtTexture& t) {
-    return 4 * (std::uint64_t{t.texels.size()} + t.corners.size() + t.records.size());
+    return 4 * (std::uint64_t{t.texels.size()} + t.corners.size() + t.records.size() + t.mips.size());
 }
 
 /// Fields of an entry's word 0.

@@ -7,20 +7,21 @@
 #include <cstring>
 #include <deque>
 
+#include "formats/fbt_mip.h"
 #include "formats/validate.h"
 
 namespace fetex {
 namespace {
 
 constexpr FourCc kMeta = fourcc("META"), kFbtHeader = fourcc("FBTH"), kFbtTexels = fourcc("FBTT"),
-                 kFbtCorners = fourcc("FBTC"), kFbtRecords = fourcc("FBTR");
+                 kFbtCorners = fourcc("FBTC"), kFbtRecords = fourcc("FBTR"), kFbtMips = fourcc("FBTM");
 constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
 constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, kFlagPatches = 8, kFlagShared = 16,
                         kFlagsKnown = 31;
 
 using Words = std::vector<std::uint32_t>;
 
-std::vector<std::uint8_t> to_bytes(const Words& words) {
+std::vector<std::uint8_t> to_bytes(std::span<const std::uint32_t> words) {
     std::vector<std::uint8_t> bytes(words.size() * 4);
     if constexpr (std::endian::native == std::endian::little) {
         if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
@@ -134,7 +135,7 @@ Words fbt_header_words(const FbtTexture& t) {
 /// Payloads that aren't anywhere else as the file has them.
 using Payloads = std::deque<std::vector<std::uint8_t>>;
 
-ByteSpan as_bytes(const Words& words, Payloads& payloads) {
+ByteSpan as_bytes(std::span<const std::uint32_t> words, Payloads& payloads) {
     if constexpr (std::endian::native == std::endian::little)
         return {reinterpret_cast<const std::uint8_t*>(words.data()), words.size() * 4};
     return payloads.emplace_back(to_bytes(words));
@@ -149,6 +150,11 @@ void append_fbt_chunks(std::vector<ChunkView>& chunks, const FbtTexture& texture
     append(kFbtTexels, as_bytes(texture.texels, payloads));
     if (texture.traits.corners) append(kFbtCorners, as_bytes(texture.corners, payloads));
     append(kFbtRecords, as_bytes(texture.records, payloads));
+    for (std::uint32_t k = 1; !texture.mips.empty() && k <= fbt_mip_levels(texture.width, texture.height); ++k) {
+        const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
+        const auto samples = std::span(texture.mips).subspan(level.first, level.samples());
+        chunks.push_back({kFbtMips, 0, representation, static_cast<std::uint8_t>(k), 0, as_bytes(samples, payloads)});
+    }
 }
 
 /// The chunks of one FBT.
@@ -157,6 +163,7 @@ struct FbtChunks {
     const ChunkView* texels = nullptr;
     const ChunkView* corners = nullptr;
     const ChunkView* records = nullptr;
+    std::map<std::uint8_t, const ChunkView*> mips; ///< by level
 };
 
 /// FBTH: dimensions and traits; `records` gets the stated count.
@@ -189,12 +196,29 @@ std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, 
     return std::nullopt;
 }
 
+bool wrong_length(const ChunkView& chunk, std::uint64_t words) { return chunk.payload.size() != words * 4; }
+
+/// FBTM: levels 1 … n, or none.
+std::optional<Finding> read_mips(FbtTexture& out, const FbtChunks& chunks) {
+    if (chunks.mips.empty()) return std::nullopt;
+    const std::uint32_t levels = fbt_mip_levels(out.width, out.height);
+    if (chunks.mips.begin()->first != 1 || chunks.mips.rbegin()->first != levels || chunks.mips.size() != levels)
+        return Finding{FindingCode::MissingChunk, chunks.mips.begin()->second->offset,
+                       "FBTM: its levels aren't 1 to " + std::to_string(levels)};
+    for (const auto& [k, chunk] : chunks.mips) {
+        if (wrong_length(*chunk, fbt_mip_level(out.width, out.height, k).samples()))
+            return Finding{FindingCode::FbtSizeMismatch, chunk->offset, "FBTM: wrong length for the level"};
+    }
+    for (const auto& [k, chunk] : chunks.mips) {
+        const Words samples = to_words(chunk->payload);
+        out.mips.insert(out.mips.end(), samples.begin(), samples.end());
+    }
+    return std::nullopt;
+}
+
 std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
     std::uint32_t records = 0;
     if (auto bad = read_fbt_header(out, records, *chunks.header)) return bad;
-    const auto wrong_length = [](const ChunkView& chunk, std::uint64_t words) {
-        return chunk.payload.size() != words * 4;
-    };
     if (wrong_length(*chunks.texels, std::uint64_t{out.width} * out.height))
         return Finding{FindingCode::FbtSizeMismatch, chunks.texels->offset, "FBTT: wrong length for the dimensions"};
     if ((chunks.corners != nullptr) != out.traits.corners)
@@ -207,13 +231,26 @@ std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
     out.texels = to_words(chunks.texels->payload);
     if (chunks.corners) out.corners = to_words(chunks.corners->payload);
     out.records = to_words(chunks.records->payload);
-    return std::nullopt;
+    return read_mips(out, chunks);
+}
+
+/// Where a byte of FbtTexture::mips lies in the file.
+std::uint64_t mip_offset(const FbtChunks& chunks, std::uint64_t offset) {
+    for (const auto& [k, chunk] : chunks.mips) {
+        if (offset < chunk->payload.size()) return chunk->offset + offset;
+        offset -= chunk->payload.size();
+    }
+    return offset;
 }
 
 /// validate_fbt counts offsets within a part; this moves them to the file.
 void to_file_offsets(std::vector<Finding>& findings, const FbtChunks& chunks) {
     for (Finding& finding : findings) {
         const auto in = [&](const char* part) { return finding.message.starts_with(part); };
+        if (in("mips")) {
+            finding.offset = mip_offset(chunks, finding.offset);
+            continue;
+        }
         finding.offset += (in("texels")    ? chunks.texels
                            : in("corners") ? chunks.corners
                            : in("records") ? chunks.records
@@ -239,7 +276,8 @@ class Reader {
     std::vector<Finding> take() { return std::move(findings_); }
 
   private:
-    /// Level 0 of the known chunks; the FBT of the lowest representation number is the one that is read.
+    /// Level 0 of the known chunks, and any of FBTM; the FBT of the lowest representation number is the one that is
+    /// read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
         const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
                          chunk.type == kFbtRecords;
@@ -251,6 +289,8 @@ class Reader {
              : chunk.type == kFbtTexels  ? group.texels
              : chunk.type == kFbtCorners ? group.corners
                                          : group.records) = &chunk;
+        } else if (chunk.type == kFbtMips && chunk.representation != kWholeFile) {
+            fbts_[chunk.representation].mips[chunk.level] = &chunk;
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};

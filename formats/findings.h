@@ -27,9 +27,9 @@ enum class FindingCode : std::uint16_t {
 
     UnknownCriticalChunk = 201,
     BadMetadata = 202,     ///< META: counts, lengths, UTF-8, order of keys
-    MissingChunk = 203,    ///< FBTH without FBTT or FBTR, or the other way round
+    MissingChunk = 203,    ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond
     BadFbtHeader = 204,    ///< FBTH: length, reserved words, flags
-    FbtSizeMismatch = 205, ///< FBTT or FBTR has not the length that FBTH asks for
+    FbtSizeMismatch = 205, ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
 
     FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
     FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "formats/fbt_mip.h"
+
 namespace fetex {
 namespace {
 
@@ -75,6 +77,7 @@ class Checker {
 
     bool check_sizes();
     void check_corners();
+    void check_mips();
     void check_texels();
     void check_traits();
     [[nodiscard]] const FbtTraits& traits() const { return traits_; }
@@ -134,6 +137,8 @@ bool Checker::check_sizes() {
         wrong = "the corner array is neither empty nor of (width+1)·(height+1) samples";
     } else if (t.records.size() % 4 != 0 || t.records.size() / 4 > kFbtAddressMask) {
         wrong = "the record array isn't of whole records, or is beyond 30-bit addresses";
+    } else if (!t.mips.empty() && t.mips.size() != fbt_mip_samples(t.width, t.height)) {
+        wrong = "the mip chain is neither empty nor of all its levels";
     }
     if (wrong) report(FindingCode::FbtDimensions, 0, "header", wrong);
     return wrong == nullptr;
@@ -142,6 +147,11 @@ bool Checker::check_sizes() {
 void Checker::check_corners() {
     for (std::size_t k = 0; k < texture_.corners.size() && !full(); ++k)
         check_sample(texture_.corners[k], "corners", k);
+}
+
+void Checker::check_mips() {
+    for (std::size_t k = 0; k < texture_.mips.size() && !full(); ++k)
+        check_sample(texture_.mips[k], "mips", k);
 }
 
 void Checker::check_texels() {
@@ -384,6 +394,7 @@ std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit) 
     Checker checker(texture, std::max<std::size_t>(limit, 1));
     if (!checker.check_sizes()) return checker.take();
     checker.check_corners();
+    checker.check_mips();
     checker.check_texels();
     checker.check_traits();
     return checker.take();
@@ -393,6 +404,7 @@ FbtTraits fbt_traits(const FbtTexture& texture) {
     Checker checker(texture, 0);
     if (!checker.check_sizes()) return {};
     checker.check_corners();
+    checker.check_mips();
     checker.check_texels();
     return checker.traits();
 }

@@ -20,7 +20,7 @@ inline constexpr double kFbtMonotoneSlack = 4;
 /// Takes time and memory in proportion to the texture, whatever its content.
 std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit = 64);
 
-/// The traits a texture has; all corners count.
+/// The traits a texture has; all corners count, and the mip chain.
 /// Safe on any content: parts that validate_fbt would refuse are left out.
 FbtTraits fbt_traits(const FbtTexture& texture);
 

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "compiler/diagnostics.h"
+#include "compiler/fbt/mip_chain.h"
 #include "compiler/fbt/row_writer.h"
 #include "compiler/parallel.h"
 
@@ -270,6 +271,19 @@ const RegionEntry& entry_of(const std::vector<RegionEntry>& entries, const fetex
                              });
 }
 
+Status add_mips(FbtBuild& build, const PlanarMap& map, const Scene& scene, Compositor& compositor,
+                const CompileOptions& options, const ProgressSink& progress) {
+    if (progress) progress("mip chain", 0);
+    fetex::FbtTexture& t = build.texture;
+    Result<std::vector<std::uint32_t>> mips = build_mips(map, scene, compositor, options, build.report.mips);
+    if (!mips) return mips.error();
+    t.mips = std::move(mips).value();
+    t.traits.translucent |= std::ranges::any_of(t.mips, [](std::uint32_t c) { return c < 0xff000000u; });
+    build.report.mips.gpu_bytes = 4 * t.mips.size();
+    build.report.fbt.gpu_bytes = fetex::fbt_gpu_bytes(t);
+    return {};
+}
+
 } // namespace
 
 ResultId FbtRegions::result_of(const fetex::FbtRegion& region, std::uint32_t width) const {
@@ -300,6 +314,10 @@ Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, co
     if (!map) return map.error();
     auto compositor = std::make_unique<Compositor>(scene, options.skip);
     Result<FbtBuild> build = Builder(scene, options, progress, map.value(), *compositor).run(report, regions);
+    if (build && options.mips) {
+        if (Status good = add_mips(build.value(), map.value(), scene, *compositor, options, progress); !good)
+            return good.error();
+    }
     if (regions != nullptr) regions->compositor = std::move(compositor);
     return build;
 }

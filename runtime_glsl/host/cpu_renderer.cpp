@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "formats/fbt_mip.h"
 #include "runtime_glsl/host/renderer.h"
 #include "runtime_glsl/host/sample_grid.h"
 
@@ -70,8 +71,27 @@ std::vector<std::uint8_t> to_rgba8(const Image& image) {
     return bytes;
 }
 
+namespace {
+
+Image render_mips(const FbtTexture& texture, const View& view, RenderSize size, unsigned threads) {
+    size.supersample = 1;
+    const PixelSides sides = pixel_sides(view, size, texture.width, texture.height);
+    const ImageAxis columns(view.x, view.w, texture.width, size.width, 1);
+    const ImageAxis rows(view.y, view.h, texture.height, size.height, 1);
+    return render_samples(columns, rows, size, threads, [&](std::int64_t x, std::int64_t y) -> Rgba {
+        const BaseAndLocal column = base_and_local(x, texture.width), row = base_and_local(y, texture.height);
+        const FbtColor c = fbt_sample_mip_aniso(texture, column.base + column.local, row.base + row.local, {sides.x, 0},
+                                                {0, sides.y}, size.filter != Filter::Area);
+        return {c.r, c.g, c.b, c.a};
+    });
+}
+
+} // namespace
+
 Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const RenderSize& size, unsigned threads) {
     if (auto bad = check_view(view, size)) return *bad;
+    if (!texture.mips.empty() && wants_mips(view, size, texture.width, texture.height))
+        return render_mips(texture, view, size, threads);
     const ImageAxis columns(view.x, view.w, texture.width, size.width, size.supersample);
     const ImageAxis rows(view.y, view.h, texture.height, size.height, size.supersample);
     FbtPixel pixel = area_of_sample(columns, rows);

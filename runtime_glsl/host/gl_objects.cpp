@@ -9,7 +9,7 @@ namespace {
 
 using Log = std::array<char, 4096>;
 
-constexpr GLuint kTargetUnit = 3; ///< no sampler uses it
+constexpr GLuint kTargetUnit = 15; ///< no sampler uses it; every GL has so many
 
 Outcome<GLuint> compile(const GladGLContext& gl, GLenum stage, const std::string& source) {
     const GLuint shader = gl.CreateShader(stage);
@@ -60,6 +60,7 @@ Outcome<Program> build_program(const GladGLContext& gl, const std::string& verte
     program.origin = gl.GetUniformLocation(program.id, "fetexOrigin");
     program.step = gl.GetUniformLocation(program.id, "fetexStep");
     program.supersample = gl.GetUniformLocation(program.id, "fetexSupersample");
+    program.pixel_sides = gl.GetUniformLocation(program.id, "fetexPixelSides");
     GLint unit = 0;
     for (const char* sampler : samplers)
         gl.Uniform1i(gl.GetUniformLocation(program.id, sampler), unit++);

@@ -12,10 +12,10 @@ namespace fetex {
 /// A linked program with the uniforms of host/shaders/view.glsl. 0: not made yet.
 struct Program {
     GLuint id = 0;
-    GLint origin = -1, step = -1, supersample = -1;
+    GLint origin = -1, step = -1, supersample = -1, pixel_sides = -1;
 };
 
-/// Samplers of units 0 and 1 are the named uniforms; a name the shader doesn't use may be given.
+/// Samplers of units 0, 1 … are the named uniforms; a name the shader doesn't use may be given.
 Outcome<Program> build_program(const GladGLContext& gl, const std::string& vertex, const std::string& fragment,
                                std::initializer_list<const char*> samplers);
 

@@ -20,12 +20,18 @@ inline constexpr double kMaxView = 16384;
 /// What a sample of an FBT is: the colour at its point, or the mean over its part of the pixel, with one texel speaking
 /// for all with features or with every texel looked at (formats/SPEC.md, 4.1).
 enum class Filter : std::uint8_t { Point, Area, ExactArea };
+/// How more than one texel a pixel is drawn.
+enum class Minification : std::uint8_t {
+    Supersample, ///< as everything else
+    Mips,        ///< from the texture's mip chain, if it has one, once a pixel
+};
 
 /// Pixels to draw, and N×N samples in each, on a regular grid, averaged (premultiplied, sRGB-encoded values).
 struct RenderSize {
     std::uint32_t width = 0, height = 0; ///< 1 … kMaxImageSide
     std::uint32_t supersample = 1;       ///< 1 … kMaxSupersample
     Filter filter = Filter::Point;       ///< of an FBT
+    Minification minification = Minification::Supersample;
 };
 inline constexpr std::uint32_t kMaxImageSide = 32768, kMaxSupersample = 16;
 inline constexpr std::uint64_t kMaxImagePixels = 1u << 26; ///< 1 GiB of floats

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "formats/fbt_mip.h"
 #include "runtime_glsl/host/gl_objects.h"
 
 namespace fetex {
@@ -14,8 +15,10 @@ namespace {
 constexpr std::uint32_t kRecordColumns = 2048; ///< as fetex_fbt.glsl reads them
 constexpr double kBitmapShift = 0.5;           ///< texels; a bitmap's sample stands in the middle of its texel
 
-// Texture units, as the shaders' bindings have them; 3 is the render target's while it is made.
-constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kCornerUnit = 2, kBitmapUnit = 0, kFieldUnit = 0;
+// Texture units, as the shaders' bindings have them.
+constexpr GLuint kTexelUnit = 0, kRecordUnit = 1, kCornerUnit = 2, kMipUnit = 3, kBitmapUnit = 0, kFieldUnit = 0;
+constexpr std::initializer_list<const char*> kFbtSamplers = {"fetexFbtTexels", "fetexFbtRecords", "fetexFbtCorners",
+                                                             "fetexFbtMips"};
 
 /// A sampler's program, and the texture that its grid is laid over.
 struct Layer {
@@ -58,23 +61,25 @@ struct Renderer::State {
     GLint max_texture_side = 0, max_buffer_texels = 0;
     GLuint vertex_array = 0;
     Target target;
-    std::array<Program, 3> fbt_programs; ///< by Filter
+    std::array<Program, 3> fbt_programs, mip_programs; ///< by Filter
     Program bitmap_program, filtered_program, field_program;
-    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, bitmap_texture = 0,
-           field_texture = 0;
-    FbtTexture fbt_traits; ///< nothing but the traits of the texture uploaded last
+    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, mip_texture = 0;
+    GLuint bitmap_texture = 0, field_texture = 0;
+    FbtTexture fbt_traits; ///< what shaders depend on of the texture uploaded last; mips: one word, if it has any
     std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
     RuntimeStatus check_limits(const FbtTexture& texture) const;
     void delete_fbt();
-    RuntimeStatus build_fbt_program(Filter filter);
-    [[nodiscard]] const Program& fbt_program(Filter filter) const {
-        return fbt_programs[static_cast<std::size_t>(filter)];
+    Outcome<Program> build_fbt(const FbtTexture& traits, Filter filter, bool mips) const;
+    RuntimeStatus need_fbt_program(Filter filter, bool mips);
+    [[nodiscard]] const Program& fbt_program(Filter filter, bool mips) const {
+        return (mips ? mip_programs : fbt_programs)[static_cast<std::size_t>(filter)];
     }
     void upload_records(const FbtTexture& texture);
     void upload_record_buffer(const FbtTexture& texture);
+    void upload_mips(const FbtTexture& texture);
     RuntimeStatus upload_fbt(const FbtTexture& texture);
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,
@@ -122,12 +127,15 @@ void Renderer::State::delete_fbt() {
     gl().DeleteTextures(1, &texel_texture);
     gl().DeleteTextures(1, &corner_texture);
     gl().DeleteTextures(1, &record_texture);
+    gl().DeleteTextures(1, &mip_texture);
     gl().DeleteBuffers(1, &record_buffer);
-    for (Program& program : fbt_programs) {
-        if (program.id != 0) gl().DeleteProgram(program.id);
-        program = {};
+    for (auto* programs : {&fbt_programs, &mip_programs}) {
+        for (Program& program : *programs) {
+            if (program.id != 0) gl().DeleteProgram(program.id);
+            program = {};
+        }
     }
-    texel_texture = corner_texture = record_texture = record_buffer = 0;
+    texel_texture = corner_texture = record_texture = record_buffer = mip_texture = 0;
 }
 
 /// Whole rows, then the rest of the last; a texture of one row is only as wide as it must be.
@@ -159,11 +167,33 @@ void Renderer::State::upload_record_buffer(const FbtTexture& texture) {
     gl().TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32UI, record_buffer);
 }
 
+/// Level 1 of the chain is GL's level 0.
+void Renderer::State::upload_mips(const FbtTexture& texture) {
+    const std::uint32_t levels = fbt_mip_levels(texture.width, texture.height);
+    for (std::uint32_t k = 1; k <= levels; ++k) {
+        const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
+        const std::uint32_t* samples = texture.mips.data() + level.first;
+        if (k == 1)
+            mip_texture =
+                make_texture(gl(), kMipUnit, GL_RGBA8, level.width, level.height, GL_RGBA, GL_UNSIGNED_BYTE, samples);
+        else
+            gl().TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(k - 1), GL_RGBA8, static_cast<GLsizei>(level.width),
+                            static_cast<GLsizei>(level.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, samples);
+    }
+    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels - 1));
+    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST); // else level 0 is all there is
+}
+
 RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     if (auto bad = check_limits(texture)) return bad;
+    FbtTexture traits;
+    traits.traits = texture.traits;
+    if (!texture.mips.empty()) traits.mips = {0};
+    const auto plain = build_fbt(traits, Filter::Point, false);
+    if (!plain) return plain.error(); // what was uploaded before stays
     delete_fbt();
-    fbt_traits.traits = texture.traits;
-    if (auto bad = build_fbt_program(Filter::Point)) return bad;
+    fbt_traits = traits;
+    fbt_programs[0] = plain.value();
     fbt_width = texture.width;
     fbt_height = texture.height;
     texel_texture = make_texture(gl(), kTexelUnit, GL_R32UI, texture.width, texture.height, GL_RED_INTEGER,
@@ -177,16 +207,21 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     } else {
         upload_records(texture);
     }
+    if (!texture.mips.empty()) upload_mips(texture);
     return gl_error(gl(), "uploading a texture");
 }
 
-/// Of the texture uploaded last. Area sampling is compiled when it is first drawn.
-RuntimeStatus Renderer::State::build_fbt_program(Filter filter) {
-    Program& program = fbt_programs[static_cast<std::size_t>(filter)];
-    if (program.id != 0) return std::nullopt;
-    auto built = build_program(gl(), view_vertex_source(options.dialect),
-                               fbt_fragment_source(options.dialect, fbt_traits, options.texture_buffer, filter),
-                               {"fetexFbtTexels", "fetexFbtRecords", "fetexFbtCorners"});
+Outcome<Program> Renderer::State::build_fbt(const FbtTexture& traits, Filter filter, bool mips) const {
+    const auto source = mips ? fbt_mip_fragment_source : fbt_fragment_source;
+    return build_program(gl(), view_vertex_source(options.dialect),
+                         source(options.dialect, traits, options.texture_buffer, filter), kFbtSamplers);
+}
+
+/// Of the texture uploaded last; compiled when it is first wanted.
+RuntimeStatus Renderer::State::need_fbt_program(Filter filter, bool mips) {
+    Program& program = (mips ? mip_programs : fbt_programs)[static_cast<std::size_t>(filter)];
+    if (program.id != 0 || fbt_programs[0].id == 0 || (mips && fbt_traits.mips.empty())) return std::nullopt;
+    const auto built = build_fbt(fbt_traits, filter, mips);
     if (!built) return built.error();
     program = built.value();
     return std::nullopt;
@@ -244,6 +279,8 @@ void Renderer::State::bind_fbt() const {
     gl().BindTexture(GL_TEXTURE_2D, texel_texture);
     gl().ActiveTexture(GL_TEXTURE0 + kCornerUnit);
     gl().BindTexture(GL_TEXTURE_2D, corner_texture);
+    gl().ActiveTexture(GL_TEXTURE0 + kMipUnit);
+    gl().BindTexture(GL_TEXTURE_2D, mip_texture);
     gl().ActiveTexture(GL_TEXTURE0 + kRecordUnit);
     gl().BindTexture(options.texture_buffer ? GL_TEXTURE_BUFFER : GL_TEXTURE_2D, record_texture);
 }
@@ -271,10 +308,12 @@ Layer Renderer::State::bind(Sampler sampler) const {
         return {field_program, field_width, field_height, kBitmapShift};
     case Sampler::Fbt:
     case Sampler::FbtArea:
+    case Sampler::FbtMips:
         break;
     }
     bind_fbt();
-    return {fbt_program(sampler == Sampler::FbtArea ? Filter::Area : Filter::Point), fbt_width, fbt_height, 0};
+    if (sampler == Sampler::FbtMips) return {fbt_program(Filter::Point, true), fbt_width, fbt_height, 0};
+    return {fbt_program(sampler == Sampler::FbtArea ? Filter::Area : Filter::Point, false), fbt_width, fbt_height, 0};
 }
 
 void Renderer::State::draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
@@ -282,6 +321,10 @@ void Renderer::State::draw_tile(const Program& program, const View& view, const 
                                 std::uint32_t first_y) const {
     set_grid(gl(), program, axis_grid(view.x, view.w, width, size.width, size.supersample, first_x, shift),
              axis_grid(view.y, view.h, height, size.height, size.supersample, first_y, shift), size.supersample);
+    if (program.pixel_sides >= 0) {
+        const PixelSides sides = pixel_sides(view, size, width, height);
+        gl().Uniform2f(program.pixel_sides, static_cast<float>(sides.x), static_cast<float>(sides.y));
+    }
     gl().DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -346,13 +389,17 @@ RuntimeStatus Renderer::upload_bitmap(std::span<const std::uint8_t> rgba8, std::
 
 Outcome<Image> Renderer::render(const View& view, const RenderSize& size) {
     if (auto bad = check_view(view, size)) return *bad;
-    if (state_->fbt_program(Filter::Point).id == 0)
+    if (state_->fbt_program(Filter::Point, false).id == 0)
         return RuntimeError{RuntimeErrc::NothingUploaded, "no texture was uploaded"};
     const CurrentContext current(*state_->context);
     if (!current.ok()) return kNotCurrent;
-    if (auto bad = state_->build_fbt_program(size.filter)) return *bad;
+    const bool mips = !state_->fbt_traits.mips.empty() && wants_mips(view, size, state_->fbt_width, state_->fbt_height);
+    if (auto bad = state_->need_fbt_program(size.filter, mips)) return *bad;
+    const Program& program = state_->fbt_program(size.filter, mips);
     state_->bind_fbt();
-    return state_->render(state_->fbt_program(size.filter), view, size, state_->fbt_width, state_->fbt_height, 0);
+    if (mips)
+        return state_->render(program, view, {size.width, size.height, 1}, state_->fbt_width, state_->fbt_height, 0);
+    return state_->render(program, view, size, state_->fbt_width, state_->fbt_height, 0);
 }
 
 bool Renderer::has_bitmap() const { return state_->bitmap_texture != 0; }
@@ -397,8 +444,9 @@ Outcome<double> Renderer::time_draws(Sampler sampler, const View& view, std::uin
         return RuntimeError{RuntimeErrc::GlTooOld, "this context has no timer queries"};
     const CurrentContext current(*state.context);
     if (!current.ok()) return kNotCurrent;
-    if (sampler == Sampler::FbtArea && state.fbt_program(Filter::Point).id != 0) {
-        if (auto bad = state.build_fbt_program(Filter::Area)) return *bad;
+    if (sampler == Sampler::FbtArea || sampler == Sampler::FbtMips) {
+        const bool mips = sampler == Sampler::FbtMips;
+        if (auto bad = state.need_fbt_program(mips ? Filter::Point : Filter::Area, mips)) return *bad;
     }
     const Layer layer = state.bind(sampler);
     if (layer.program.id == 0 || side > kTileSide)

@@ -36,6 +36,7 @@ struct RendererOptions {
 enum class Sampler : std::uint8_t {
     Fbt,
     FbtArea,  ///< area sampling of the FBT
+    FbtMips,  ///< the FBT's mip chain, whatever the view
     Bilinear, ///< the bitmap through the hardware's LINEAR filter: the plain lookup that costs are compared with
     Field,
 };
@@ -89,8 +90,8 @@ class Renderer {
     std::unique_ptr<State> state_;
 };
 
-/// The reference: the same pixel centres through fbt_sample_local or fbt_sample_area_local, in double. threads 0: all.
-/// Never depends on it.
+/// The reference: the same pixel centres through fbt_sample_local, fbt_sample_area_local or fbt_sample_mip_aniso, in
+/// double. threads 0: all. Never depends on it.
 Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const RenderSize& size, unsigned threads = 0);
 /// As Renderer::render_bitmap, on the CPU.
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,

@@ -38,6 +38,15 @@ BaseAndLocal base_and_local(std::int64_t position, std::uint32_t size) {
     return {static_cast<std::uint32_t>(whole), static_cast<double>(fraction >> 8) * 0x1p-24};
 }
 
+PixelSides pixel_sides(const View& view, const RenderSize& size, std::uint32_t width, std::uint32_t height) {
+    return {view.w * width / size.width, view.h * height / size.height};
+}
+
+bool wants_mips(const View& view, const RenderSize& size, std::uint32_t width, std::uint32_t height) {
+    const PixelSides sides = pixel_sides(view, size, width, height);
+    return size.minification == Minification::Mips && std::max(sides.x, sides.y) > 1;
+}
+
 RuntimeStatus check_view(const View& view, const RenderSize& size) {
     const bool good_view =
         within(view.x) && within(view.y) && within(view.w) && within(view.h) && view.w > 0 && view.h > 0;

@@ -54,6 +54,15 @@ class ImageAxis {
 /// Clamped to the texture.
 BaseAndLocal base_and_local(std::int64_t position, std::uint32_t size);
 
+/// Sides of a pixel, in texels of a texture of width×height.
+struct PixelSides {
+    double x = 0, y = 0;
+};
+PixelSides pixel_sides(const View& view, const RenderSize& size, std::uint32_t width, std::uint32_t height);
+
+/// A mip chain draws this, if there is one: it is wanted, and a pixel is longer than a texel.
+bool wants_mips(const View& view, const RenderSize& size, std::uint32_t width, std::uint32_t height);
+
 /// Error E7001 if a limit of image.h is broken.
 RuntimeStatus check_view(const View& view, const RenderSize& size);
 

@@ -31,6 +31,20 @@ std::string real(double value) {
     return {text, end};
 }
 
+/// The sampler of the features alone.
+std::string features_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
+    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl") +
+           (filter == Filter::Point
+                ? ""
+                : define("FETEX_FBT_AREA_EXACT", filter == Filter::ExactArea) + file_text("fetex_fbt_area.glsl"));
+}
+
+/// With the mip chain, which needs area sampling.
+std::string mip_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
+    const Filter fine = filter == Filter::Area ? Filter::Area : Filter::ExactArea;
+    return features_source(dialect, texture, texture_buffer, fine) + file_text("fetex_fbt_mip.glsl");
+}
+
 std::string color(const float (&c)[4]) {
     return "vec4(" + real(c[0]) + ", " + real(c[1]) + ", " + real(c[2]) + ", " + real(c[3]) + ")";
 }
@@ -66,17 +80,20 @@ std::string fbt_specialisation(const FbtTraits& traits) {
 }
 
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
-    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl") +
-           (filter == Filter::Point
-                ? ""
-                : define("FETEX_FBT_AREA_EXACT", filter == Filter::ExactArea) + file_text("fetex_fbt_area.glsl"));
+    if (!texture.mips.empty()) return mip_source(dialect, texture, texture_buffer, filter);
+    return features_source(dialect, texture, texture_buffer, filter);
 }
 
 std::string view_vertex_source(Dialect dialect) { return shader_prelude(dialect) + file_text("view.vert.glsl"); }
 
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
-    return fbt_library_source(dialect, texture, texture_buffer, filter) + file_text("view.glsl") +
+    return features_source(dialect, texture, texture_buffer, filter) + file_text("view.glsl") +
            file_text(filter == Filter::Point ? "fbt.frag.glsl" : "fbt_area.frag.glsl");
+}
+
+std::string fbt_mip_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
+    return mip_source(dialect, texture, texture_buffer, filter) + define("FETEX_VIEW_FOOTPRINT", 1) +
+           file_text("view.glsl") + file_text("fbt_mip.frag.glsl");
 }
 
 std::string bitmap_fragment_source(Dialect dialect) {

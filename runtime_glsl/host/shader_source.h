@@ -26,16 +26,19 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 /// The macros that leave out of the sampler what an asset doesn't need. "" instead leaves everything in.
 std::string fbt_specialisation(const FbtTraits& traits);
 
-/// Prelude, specialisation, fetex_fbt.glsl and, for area sampling, fetex_fbt_area.glsl, to be followed by a fragment
-/// shader. Only the traits of the texture are looked at.
+/// Prelude, specialisation, fetex_fbt.glsl and, to be followed by a fragment shader: for area sampling
+/// fetex_fbt_area.glsl; if the texture has a mip chain, that and fetex_fbt_mip.glsl, whose level 0 then is exact unless
+/// the filter is Area. Only the traits of the texture are looked at, and whether it has a chain.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                Filter filter = Filter::Point);
 
-/// Complete shaders of the host: a triangle over the viewport, the FBT, the bitmap in full precision, the bitmap
-/// through the hardware filter, and a one-channel field (renderer.h).
+/// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bitmap in full
+/// precision, the bitmap through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                 Filter filter = Filter::Point);
+std::string fbt_mip_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
+                                    Filter filter = Filter::Point);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

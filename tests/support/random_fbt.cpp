@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "formats/fbt_mip.h"
 #include "formats/validate.h"
 #include "tests/support/fbt_maker.h"
 
@@ -175,6 +176,10 @@ FbtTexture Generator::make() {
     }
     for (std::uint32_t k = 0; k < options_.width * options_.height; ++k)
         texture_.texels.push_back(texel());
+    if (options_.mips) {
+        for (std::uint64_t k = fetex::fbt_mip_samples(options_.width, options_.height); k > 0; --k)
+            texture_.mips.push_back(color());
+    }
     texture_.traits = fetex::fbt_traits(texture_);
     if (!texture_.traits.corners) texture_.corners.clear(), texture_.traits = fetex::fbt_traits(texture_);
     return std::move(texture_);

@@ -17,6 +17,7 @@ struct RandomFbtOptions {
     bool bands = true, corners = true, patches = true, translucent = true;
     std::uint32_t max_features = 4; ///< in a band
     std::uint32_t max_pieces = 6;   ///< in a run
+    bool mips = false;              ///< a chain of random samples
 };
 
 fetex::FbtTexture random_fbt(std::uint64_t seed, const RandomFbtOptions& options = {});

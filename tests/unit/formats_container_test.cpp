@@ -221,6 +221,52 @@ TEST(Reader, wantsAllThreeChunksOfAnFbt) {
               FindingCode::MissingChunk);
 }
 
+/// A good file with a chain, and what the reader says when its chunks FBTM are something else: of a texture of 5×3
+/// texels, levels of 2×1 and 1×1.
+FindingCode with_mips(const std::vector<Chunk>& mips) {
+    FetexFile file;
+    file.fbt = fetexc::test::random_fbt(4, {.width = 5, .height = 3});
+    const Bytes plain = write_file(file);
+    ContainerView container;
+    EXPECT_FALSE(read_container(container, plain).has_value());
+    std::vector<Chunk> chunks;
+    for (const ChunkView& c : container.chunks)
+        chunks.push_back({c.type, c.flags, c.representation, c.level, {c.payload.begin(), c.payload.end()}});
+    chunks.insert(chunks.end(), mips.begin(), mips.end());
+    return code_of(write_container(chunks));
+}
+
+Chunk mip(std::uint8_t level, std::size_t bytes, std::uint8_t representation = 0) {
+    return {fourcc("FBTM"), 0, representation, level, Bytes(bytes, 0)};
+}
+
+TEST(Reader, takesAMipChainWholeOrNotAtAll) {
+    EXPECT_EQ(with_mips({}), FindingCode{});
+    EXPECT_EQ(with_mips({mip(1, 8), mip(2, 4)}), FindingCode{});
+    EXPECT_EQ(with_mips({mip(2, 4), mip(1, 8)}), FindingCode{}); // in any order
+    EXPECT_EQ(with_mips({mip(1, 8)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(2, 4)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(0, 60), mip(1, 8), mip(2, 4)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(1, 8), mip(2, 4), mip(3, 4)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(1, 8), mip(3, 4)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(1, 8), mip(255, 4)}), FindingCode::MissingChunk);
+    EXPECT_EQ(with_mips({mip(1, 8, 7), mip(2, 4, 7)}), FindingCode::MissingChunk); // of no FBT
+    EXPECT_EQ(with_mips({mip(1, 4), mip(2, 4)}), FindingCode::FbtSizeMismatch);
+    EXPECT_EQ(with_mips({mip(1, 9), mip(2, 4)}), FindingCode::FbtSizeMismatch);
+    EXPECT_EQ(with_mips({mip(1, 8), mip(2, 0)}), FindingCode::FbtSizeMismatch);
+}
+
+TEST(Reader, readsTheMipChainThatWasWritten) {
+    FetexFile file, back;
+    file.fbt = fetexc::test::random_fbt(4, {.width = 21, .height = 6, .mips = true});
+    const Bytes bytes = write_file(file);
+    ASSERT_FALSE(read_file(back, bytes).has_value());
+    EXPECT_EQ(back.fbt->mips, file.fbt->mips);
+    EXPECT_EQ(write_file(back), bytes);
+    for (std::size_t length = 0; length < bytes.size(); length += 7)
+        EXPECT_NE(code_of(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length))), FindingCode{});
+}
+
 Bytes with_metadata(const Bytes& payload) { return write_container({{fourcc("META"), 0, kWholeFile, 0, payload}}); }
 
 TEST(Reader, refusesMalformedMetadata) {
@@ -280,6 +326,21 @@ TEST(Validator, countsOffsetsFromTheStartOfTheFile) {
     EXPECT_EQ(findings[0].code, FindingCode::FbtModel);
     EXPECT_EQ(findings[0].offset, texels + 4);
     EXPECT_EQ(finding_id(findings[0].code), "F1020");
+}
+
+TEST(Validator, countsOffsetsInMipLevelsFromTheStartOfTheFile) {
+    FetexFile file;
+    file.fbt = fetexc::test::random_fbt(4, {.width = 5, .height = 3, .mips = true});
+    Bytes bytes = write_file(file);
+    ContainerView container;
+    ASSERT_FALSE(read_container(container, bytes).has_value());
+    const std::size_t last = static_cast<std::size_t>(container.chunks.back().offset); // the sample of level 2
+    store(bytes, last, 0x010000ff, 4);
+    reseal(bytes);
+    const auto findings = validate_file(bytes);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].code, FindingCode::FbtNotPremultiplied);
+    EXPECT_EQ(findings[0].offset, last);
 }
 
 } // namespace

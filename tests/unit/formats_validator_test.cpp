@@ -103,6 +103,18 @@ std::vector<Fault> faults() {
         {"no height", C::FbtDimensions, [](FbtTexture& t) { t.height = 0; }},
         {"a texel short", C::FbtDimensions, [](FbtTexture& t) { t.texels.pop_back(); }},
         {"a corner short", C::FbtDimensions, [](FbtTexture& t) { t.corners.pop_back(); }},
+        {"a mip chain of two samples", C::FbtDimensions,
+         [](FbtTexture& t) {
+             t.mips = {0, 0};
+         }},
+        {"a mip sample that isn't premultiplied", C::FbtNotPremultiplied, [](FbtTexture& t) { t.mips = {0x7f800000}; }},
+        {"a translucent mip sample in an opaque texture", C::FbtTraitsMismatch,
+         [](FbtTexture& t) {
+             single(t);
+             t.corners = {0xff000000, 0xff000000, 0xff000000, 0xff000000};
+             t.traits = fbt_traits(t);
+             t.mips = {0xfe000000};
+         }},
         {"a word too many", C::FbtDimensions, [](FbtTexture& t) { t.records.push_back(0); }},
         {"bits of a solid texel", C::FbtReservedBits, [](FbtTexture& t) { t.texels[0] = kFbtOpaque << 1; }},
         {"a colour that isn't opaque", C::FbtReservedBits, [](FbtTexture& t) { t.texels[0] = 1; }},

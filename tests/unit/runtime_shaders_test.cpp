@@ -84,9 +84,11 @@ TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
                 // Where records lie doesn't interact with the rest; ES 3.0 has no texture buffers.
                 if (buffer && (dialect == Dialect::Essl300 || texture.traits.degrees != 14)) continue;
                 const fs::path file = folder_ / (std::to_string(count++) + ".frag");
-                // Area sampling includes the plain sampler.
+                // Area sampling includes the plain sampler, the chain both.
                 const Filter filter = count % 5 == 0 ? Filter::ExactArea : Filter::Area;
-                std::ofstream(file) << fbt_fragment_source(dialect, texture, buffer, filter);
+                std::ofstream(file) << (texture.traits.shared
+                                            ? fbt_mip_fragment_source(dialect, texture, buffer, filter)
+                                            : fbt_fragment_source(dialect, texture, buffer, filter));
                 if (dialect == Dialect::Vulkan450) { // -V links all files of a call
                     ASSERT_EQ(std::system((tool + " " + file.string() + " >" + (folder_ / "log").string()).c_str()), 0)
                         << file;
@@ -113,13 +115,16 @@ TEST_F(Shaders, compileWithNothingSpecialised) {
     if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
     // The plain files, as an engine uses them: prelude, library, a main of its own.
     const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
-    const std::string main_text = "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
-                                  "void main() { color = fetexFbtSample(uv) + fetexFbtSampleArea(uv, vec2(0.1)); }\n";
+    const std::string main_text =
+        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+        "void main() { color = fetexFbtSample(uv) + fetexFbtSampleArea(uv, vec2(0.1))\n"
+        "    + fetexFbtSampleMip(uv, 2.5) + fetexFbtSampleMipAniso(uv, dFdx(uv), dFdy(uv)); }\n";
     for (const Dialect dialect : kDialects) {
         std::stringstream text;
         text << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        text << std::ifstream(root + "fetex_fbt.glsl").rdbuf() << std::ifstream(root + "fetex_fbt_area.glsl").rdbuf()
-             << main_text;
+        for (const char* file : {"fetex_fbt.glsl", "fetex_fbt_area.glsl", "fetex_fbt_mip.glsl"})
+            text << std::ifstream(root + file).rdbuf();
+        text << main_text;
         ASSERT_GT(text.str().size(), 5000u);
         const std::string tool =
             dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
@@ -133,8 +138,9 @@ TEST_F(Shaders, crossToHlslMetalAndEs) {
     const std::vector<FbtTexture> all = all_specialisations();
     const fs::path binary = folder_ / "shader.spv";
     for (std::size_t k = 0; k < all.size(); k += 7) {
-        ASSERT_EQ(run(fbt_fragment_source(Dialect::Vulkan450, all[k], false, Filter::Area), "cross.frag",
-                      "glslangValidator -V -o " + binary.string() + " @"),
+        ASSERT_EQ(run(k % 2 == 0 ? fbt_fragment_source(Dialect::Vulkan450, all[k], false, Filter::Area)
+                                 : fbt_mip_fragment_source(Dialect::Vulkan450, all[k]),
+                      "cross.frag", "glslangValidator -V -o " + binary.string() + " @"),
                   "");
         for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es", "--version 330 --no-es"})
             EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
@@ -148,7 +154,7 @@ TEST_F(Shaders, crossToHlslMetalAndEs) {
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
-        for (const char c : fbt_fragment_source(dialect, {}, false, Filter::Area))
+        for (const char c : fbt_fragment_source(dialect, {}) + fbt_mip_fragment_source(dialect, {}))
             ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
 }
 
@@ -159,6 +165,10 @@ TEST_F(Shaders, leaveOutWhatTheAssetDoesNotNeed) {
     const std::string text = fbt_specialisation(lines.traits);
     EXPECT_NE(text.find("#define FETEX_FBT_DEGREES 2\n"), std::string::npos);
     EXPECT_NE(text.find("#define FETEX_FBT_BANDS 0\n"), std::string::npos);
+    EXPECT_EQ(fbt_library_source(Dialect::Glsl330, lines).find("fetexFbtSampleMip"), std::string::npos);
+    FbtTexture chain = lines;
+    chain.mips = {0};
+    EXPECT_NE(fbt_library_source(Dialect::Glsl330, chain).find("fetexFbtSampleMip"), std::string::npos);
     if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
     const std::string preprocessed_cubic = "glslangValidator -E @ | grep -q fetexFbtSolveCubic";
     EXPECT_NE(run(fbt_fragment_source(Dialect::Glsl330, lines), "lines.frag", preprocessed_cubic), "");

@@ -5,11 +5,17 @@ layout(push_constant) uniform FetexView {
     ivec4 fetexOrigin;
     ivec4 fetexStep;
     int fetexSupersample;
+#ifdef FETEX_VIEW_FOOTPRINT
+    vec2 fetexPixelSides; // in texels
+#endif
 };
 #else
 uniform highp ivec4 fetexOrigin; // integer x, y; fraction x, y in 2^-32 as bits
 uniform highp ivec4 fetexStep;
 uniform highp int fetexSupersample;
+#ifdef FETEX_VIEW_FOOTPRINT
+uniform highp vec2 fetexPixelSides;
+#endif
 #endif
 
 FETEX_VARYING(0) out highp vec4 fetexPixel;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+// The mip chain of a feature-based texture: views with more than one texel a pixel. Semantics: formats/SPEC.md, section
+// 4.2; the same in double: formats/fbt_mip.cpp. Goes after fetex_fbt.glsl and fetex_fbt_area.glsl, for textures that have
+// a chain.
+//
+//   vec4 fetexFbtSampleMip(vec2 uv, float texelsPerPixel)                       a square pixel
+//   vec4 fetexFbtSampleMipAniso(vec2 uv, vec2 dx, vec2 dy)                      uv from pixel to pixel (dFdx, dFdy)
+//   vec4 fetexFbtSampleMipTexel(ivec2 base, vec2 local, float texelsPerPixel)   as fetexFbtSampleTexel
+//   vec4 fetexFbtSampleMipAnisoTexel(ivec2 base, vec2 local, vec2 dx, vec2 dy)  the same; dx, dy in texels
+//
+//   fetexFbtMips     RGBA8 2D with a mip chain: GL's level k is the chunk FBTM of level k + 1; no filter is used: some
+//                    drivers round what they interpolate to 8 bits, so the shader does it
+//
+// Any number of texels a pixel will do; below the scale of level 1 the features are area sampled, once a tap.
+
+FETEX_UNIFORM(3) highp sampler2D fetexFbtMips;
+
+const int fetexFbtMipMaxTaps = 8;
+
+// Rounded down, exactly; for v > 0.
+int fetexFbtLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }
+
+ivec2 fetexFbtMipSize(int level) { return max(fetexFbtSize() >> level, ivec2(1)); }
+
+// Texels across a sample of a level, in the direction that has more.
+float fetexFbtMipScale(int level) {
+    vec2 scale = vec2(fetexFbtSize()) / vec2(fetexFbtMipSize(level));
+    return max(scale.x, scale.y);
+}
+
+// Samples stand in the middle of what they are the mean of.
+vec4 fetexFbtMipLevel(vec2 uv, int level) {
+    ivec2 last = fetexFbtMipSize(level) - 1;
+    vec2 at = clamp(uv, 0.0, 1.0) * vec2(last + 1) - 0.5;
+    vec2 whole = floor(at), weight = at - whole;
+    ivec2 a = clamp(ivec2(whole), ivec2(0), last), b = clamp(ivec2(whole) + 1, ivec2(0), last);
+    vec4 upper = mix(texelFetch(fetexFbtMips, a, level - 1), texelFetch(fetexFbtMips, ivec2(b.x, a.y), level - 1), weight.x);
+    vec4 lower = mix(texelFetch(fetexFbtMips, ivec2(a.x, b.y), level - 1), texelFetch(fetexFbtMips, b, level - 1), weight.x);
+    return mix(upper, lower, weight.y);
+}
+
+// Mean over a square of so many texels around a position, which may lie beyond the texture.
+vec4 fetexFbtBox(ivec2 base, vec2 local, float side) {
+    local = mix(local, vec2(0.0), lessThan(base, ivec2(0))); // there its border is repeated
+    local = mix(local, vec2(1.0), greaterThanEqual(base, fetexFbtSize()));
+    return fetexFbtSampleAreaTexel(base, local, vec2(max(0.5 * side, 1e-7)));
+}
+
+vec4 fetexFbtSampleMipTexel(ivec2 base, vec2 local, float texelsPerPixel) {
+    ivec2 size = fetexFbtSize();
+    int levels = max(fetexFbtLog2(float(max(size.x, size.y))), 1);
+    float side = max(texelsPerPixel, 0.0);
+    // The coarsest level that isn't coarser than the pixel; scales lie from 2^k to below 2^(k+1).
+    int level = min(fetexFbtLog2(max(side, 1.0)), levels);
+    if (fetexFbtMipScale(level) > side) level = max(level - 1, 0);
+    if (side >= fetexFbtMipScale(levels)) level = levels;
+    vec2 uv = (vec2(base) + local) / vec2(size);
+    vec4 fine = level > 0 ? fetexFbtMipLevel(uv, level) : fetexFbtBox(base, local, min(side, 1.0));
+    float from = fetexFbtMipScale(level), to = fetexFbtMipScale(min(level + 1, levels));
+    if (level == levels || side <= from) return fine;
+    return mix(fine, fetexFbtMipLevel(uv, level + 1), log2(side / from) / log2(to / from));
+}
+
+vec4 fetexFbtSampleMip(vec2 uv, float texelsPerPixel) {
+    vec2 position = clamp(uv, 0.0, 1.0) * vec2(fetexFbtSize());
+    ivec2 base = ivec2(position);
+    return fetexFbtSampleMipTexel(base, position - vec2(base), texelsPerPixel);
+}
+
+// dx, dy in texels.
+vec4 fetexFbtSampleMipAnisoTexel(ivec2 base, vec2 local, vec2 dx, vec2 dy) {
+    float lengthX = length(dx), lengthY = length(dy), longer = max(lengthX, lengthY);
+    vec2 axis = lengthX >= lengthY ? dx : dy;
+    float height = longer > 0.0 ? abs(dx.x * dy.y - dx.y * dy.x) / longer : 0.0;
+    float ratio = longer > 0.0 ? longer / max(height, longer / float(fetexFbtMipMaxTaps)) : 1.0;
+    float taps = max(floor(ratio + (0.5 - 1.0 / 1024.0)), 1.0), side = max(longer / taps, height);
+    vec4 sum = vec4(0.0);
+    for (int tap = 0; tap < int(taps); ++tap) {
+        vec2 at = local + axis * ((float(tap) + 0.5) / taps - 0.5), whole = floor(at);
+        sum += fetexFbtSampleMipTexel(base + ivec2(whole), at - whole, side);
+    }
+    return sum / taps;
+}
+
+vec4 fetexFbtSampleMipAniso(vec2 uv, vec2 dx, vec2 dy) {
+    vec2 size = vec2(fetexFbtSize()), position = clamp(uv, 0.0, 1.0) * size;
+    ivec2 base = ivec2(position);
+    return fetexFbtSampleMipAnisoTexel(base, position - vec2(base), dx * size, dy * size);
+}
