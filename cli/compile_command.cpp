@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `fetexc compile`: vector art in, .fetex out.
+/// `fetexc compile`: vector art, or an image with features, in, .fetex out.
 #include <algorithm>
 #include <chrono>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "cli/compile_image.h"
 #include "cli/depfile.h"
 #include "cli/io.h"
 #include "cli/load_scene.h"
@@ -15,6 +16,7 @@
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/version.h"
+#include "compiler/diagnostics.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
@@ -27,7 +29,9 @@ struct CompileCommandOptions {
     std::string output, depfile, report;
     std::string representation = "fbt";
     SizeValue size{0, 0, kDefaultTexels};
+    bool size_given = false;
     SceneOptions scene;
+    ImageOptions image;
     std::uint64_t max_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> no_skip;
@@ -63,30 +67,69 @@ fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOpti
 }
 
 struct Compiled {
-    LoadedScene loaded;
+    fetex::Metadata metadata;
     FbtBuild build;
 };
 
-/// Front end and compiler; what they have to say is appended to diagnostics, also on error.
-Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& options,
-                                  std::vector<Diagnostic>& diagnostics) {
+CompileOptions compile_options(const CompileCommandOptions& options, const Extent& extent) {
+    return {grid_of(options.size, extent), options.threads, skip_rules_without(options.no_skip), options.mips};
+}
+
+fetex::Metadata metadata_for(const LoadedImage& loaded, const CompileCommandOptions& options,
+                             const fetex::FbtTexture& fbt) {
+    const ImageOptions& o = options.image;
+    std::string made_with = fmt::format("repr=fbt size={}x{} invalidate={}", fbt.width, fbt.height, o.invalidate);
+    if (options.mips) made_with += " mips";
+    if (o.trace) made_with += fmt::format(" trace-contrast={} trace-speck={}", o.tracing.contrast, o.tracing.speck);
+    fetex::Metadata metadata{
+        {"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
+    if (!loaded.features_hash.empty()) metadata.emplace("features.xxh128", loaded.features_hash);
+    return metadata;
+}
+
+/// An image has as many texels as pixels unless told otherwise.
+Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOptions& options,
+                                        std::vector<Diagnostic>& diagnostics) {
+    ProgressLine progress(job.input, options.quiet);
+    auto loaded = load_image(options.image, options.scene, options.threads, diagnostics);
+    if (!loaded) return loaded.error();
+    const FeaturedImage& picture = loaded.value().picture;
+    CompileOptions how = compile_options(options, picture.features.extent);
+    if (!options.size_given) how.size = {picture.image.width, picture.image.height};
+    auto build = compile_fbt(picture, how, progress.sink());
+    if (!build) return build.error();
+    fetex::Metadata metadata = metadata_for(loaded.value(), options, build.value().texture);
+    return Compiled{std::move(metadata), std::move(build).value()};
+}
+
+Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOptions& options,
+                                          std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
     const bool chosen = options.size.automatic || options.max_bytes != 0;
     const std::uint32_t texels =
         chosen ? kDefaultTexels : std::max({options.size.longer, options.size.width, options.size.height});
-    const SkipRules skip = skip_rules_without(options.no_skip);
     SceneOptions scene_options = options.scene;
-    scene_options.cull = skip.layers;
+    scene_options.cull = skip_rules_without(options.no_skip).layers;
     auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    const CompileOptions compile_options{grid_of(options.size, scene.extent), options.threads, skip, options.mips};
-    auto build = chosen ? compile_fbt_at_chosen_size(scene, compile_options, options.max_bytes, progress.sink())
-                        : compile_fbt(scene, compile_options, progress.sink());
+    const CompileOptions how = compile_options(options, scene.extent);
+    auto build = chosen ? compile_fbt_at_chosen_size(scene, how, options.max_bytes, progress.sink())
+                        : compile_fbt(scene, how, progress.sink());
     if (!build) return build.error();
-    const std::vector<Diagnostic>& found = build.value().report.diagnostics;
+    fetex::Metadata metadata = metadata_for(loaded.value(), options, build.value().texture);
+    return Compiled{std::move(metadata), std::move(build).value()};
+}
+
+/// Front end and compiler; what they have to say is appended to diagnostics, also on error.
+Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& options,
+                                  std::vector<Diagnostic>& diagnostics) {
+    auto compiled = options.image.image.empty() ? load_and_compile_drawing(job, options, diagnostics)
+                                                : load_and_compile_image(job, options, diagnostics);
+    if (!compiled) return compiled;
+    const std::vector<Diagnostic>& found = compiled.value().build.report.diagnostics;
     diagnostics.insert(diagnostics.end(), found.begin(), found.end());
-    return Compiled{std::move(loaded).value(), std::move(build).value()};
+    return compiled;
 }
 
 CompileOutcome outcome_of(const Job& job, const fetex::FbtTexture& fbt, CompileReport report) {
@@ -110,7 +153,7 @@ Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& 
 
     fetex::FetexFile file;
     file.fbt = std::move(compiled.value().build.texture);
-    file.metadata = metadata_for(compiled.value().loaded, options, *file.fbt);
+    file.metadata = std::move(compiled.value().metadata);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
@@ -126,6 +169,7 @@ Status write_depfile(const CompileCommandOptions& options, const std::vector<Com
     for (const CompileOutcome& outcome : outcomes) {
         DepfileRule rule{outcome.output, {}};
         if (outcome.input != "-") rule.inputs.push_back(outcome.input);
+        if (!options.image.features.empty()) rule.inputs.push_back(options.image.features);
         rule.inputs.insert(rule.inputs.end(), options.scene.fonts.begin(), options.scene.fonts.end());
         rules.push_back(std::move(rule));
     }
@@ -146,9 +190,28 @@ void print_report(const CompileCommandOptions& options, const std::vector<Compil
     }
 }
 
+/// What the options' own conditions don't say.
+Status check_inputs(const CompileCommandOptions& options) {
+    const auto usage = [](const char* message) { return Error{ErrorClass::Usage, diag::kBadUsage, message, {}}; };
+    const ImageOptions& image = options.image;
+    if (image.image.empty())
+        return options.inputs.empty() ? usage("inputs is required: SVG files, or --image") : Status();
+    if (!options.inputs.empty()) return usage("--image goes alone: no other inputs");
+    if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
+    if (image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
+    if (options.size.automatic || options.max_bytes != 0)
+        return usage("--size auto and --max-bytes choose sizes for drawings, not for an --image");
+    return {};
+}
+
 Result<Plan> prepare(const CompileCommandOptions& options) {
-    auto plan = plan_outputs(options.inputs, options.output);
+    if (const Status status = check_inputs(options); !status) return status.error();
+    const bool image = !options.image.image.empty();
+    auto plan = plan_outputs(image ? std::vector{options.image.image} : options.inputs, options.output);
     if (!plan) return plan;
+    if (image && same_file(options.image.features, plan.value().jobs[0].output))
+        return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
+                     plan.value().jobs[0].output};
     if (!options.depfile.empty()) {
         if (const Status status = check_depfile(options.depfile, plan.value().jobs); !status) return status.error();
     }
@@ -187,8 +250,8 @@ int run_compile(const CompileCommandOptions& options) {
 
 Command add_compile_command(CLI::App& parent) {
     const auto options = std::make_shared<CompileCommandOptions>();
-    CLI::App* app = parent.add_subcommand("compile", "Turn SVG files into .fetex textures");
-    app->add_option("inputs", options->inputs, "SVG or SVGZ files, or - for stdin")->required()->type_name("FILE");
+    CLI::App* app = parent.add_subcommand("compile", "Turn SVG files, or an image with features, into .fetex textures");
+    app->add_option("inputs", options->inputs, "SVG or SVGZ files, or - for stdin")->type_name("FILE");
     app->add_option("-o,--output", options->output,
                     "File for one input, folder for several, - for stdout; default: beside each input")
         ->type_name("PATH");
@@ -211,13 +274,17 @@ Command add_compile_command(CLI::App& parent) {
         ->check(CLI::IsMember({"text", "json"}))
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
+    add_image_options(*app, options->image);
     add_scene_options(*app, options->scene);
     app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
         ->take_all()
         ->check(CLI::IsMember(skip_rule_names()))
         ->group(""); // hidden
     add_quiet_option(*app, options->quiet);
-    return {app, [options] { return run_compile(*options); }};
+    return {app, [options, size] {
+                options->size_given = size->count() > 0;
+                return run_compile(*options);
+            }};
 }
 
 } // namespace fetexc::cli

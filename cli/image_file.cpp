@@ -35,17 +35,6 @@ void* open_module() {
     return nullptr;
 }
 
-/// Stays loaded: OpenImageIO's own threads may outlive a call.
-Result<void*> symbol(const char* name) {
-    static void* const module = open_module();
-    if (module == nullptr)
-        return Error{ErrorClass::Runtime, diag::kInternal, std::string("no ") + kPngModule + " beside the program", {}};
-    void* const address = dlsym(module, name);
-    if (address == nullptr)
-        return Error{ErrorClass::Runtime, diag::kInternal, std::string(kPngModule) + " lacks " + name, {}};
-    return address;
-}
-
 /// Straight alpha to premultiplied, rounded once.
 void premultiply(std::vector<std::uint8_t>& rgba) {
     for (std::size_t k = 0; k < rgba.size(); k += 4) {
@@ -55,6 +44,17 @@ void premultiply(std::vector<std::uint8_t>& rgba) {
 }
 
 } // namespace
+
+/// Stays loaded: OpenImageIO's own threads may outlive a call.
+Result<void*> module_symbol(const char* name) {
+    static void* const module = open_module();
+    if (module == nullptr)
+        return Error{ErrorClass::Runtime, diag::kInternal, std::string("no ") + kPngModule + " beside the program", {}};
+    void* const address = dlsym(module, name);
+    if (address == nullptr)
+        return Error{ErrorClass::Runtime, diag::kInternal, std::string(kPngModule) + " lacks " + name, {}};
+    return address;
+}
 
 std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
     std::vector<std::uint8_t> bytes(image.rgba.size());
@@ -68,7 +68,7 @@ std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image) {
-    const auto encode = symbol(kEncodePng);
+    const auto encode = module_symbol(kEncodePng);
     if (!encode) return encode_error(encode.error().message);
     const std::vector<std::uint8_t> pixels = to_straight_rgba8(image);
     std::vector<std::uint8_t> bytes;
@@ -81,7 +81,7 @@ Result<std::vector<std::uint8_t>> encode_png(const fetex::Image& image) {
 }
 
 Result<DecodedPicture> decode_png(std::span<const std::uint8_t> bytes) {
-    const auto decode = symbol(kDecodePng);
+    const auto decode = module_symbol(kDecodePng);
     if (!decode) return decode.error();
     DecodedPicture picture;
     const auto take = [](void* context, const std::uint8_t* data, std::uint32_t width, std::uint32_t height) {

@@ -15,17 +15,16 @@ namespace {
 
 constexpr std::uint32_t kMinRaster = 16, kMaxRaster = 16384; // the limits of SvgOptions::raster_pixels
 
+} // namespace
+
 std::string hash_of(const std::vector<std::uint8_t>& bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-} // namespace
-
 std::uint32_t raster_size_for(std::uint32_t texels) { return std::clamp(2 * texels, kMinRaster, kMaxRaster); }
 
-Result<LoadedScene> scene_of_bytes(const std::vector<std::uint8_t>& bytes, const SceneOptions& options,
-                                   std::uint32_t texels, unsigned threads, std::vector<Diagnostic>& diagnostics) {
+SvgOptions svg_options(const SceneOptions& options, std::uint32_t texels, unsigned threads) {
     SvgOptions svg;
     svg.font_files.assign(options.fonts.begin(), options.fonts.end());
     svg.system_fonts = options.system_fonts;
@@ -33,7 +32,12 @@ Result<LoadedScene> scene_of_bytes(const std::vector<std::uint8_t>& bytes, const
     svg.raster_pixels = options.raster_size != 0 ? options.raster_size : raster_size_for(texels);
     svg.cull = options.cull;
     svg.threads = threads;
-    auto scene = load_svg(bytes, svg, diagnostics);
+    return svg;
+}
+
+Result<LoadedScene> scene_of_bytes(const std::vector<std::uint8_t>& bytes, const SceneOptions& options,
+                                   std::uint32_t texels, unsigned threads, std::vector<Diagnostic>& diagnostics) {
+    auto scene = load_svg(bytes, svg_options(options, texels, threads), diagnostics);
     if (!scene) return scene.error();
     return LoadedScene{std::move(scene).value(), hash_of(bytes)};
 }

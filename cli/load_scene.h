@@ -10,6 +10,7 @@
 
 #include "compiler/result.h"
 #include "compiler/scene/scene.h"
+#include "compiler/svg/svg.h"
 
 namespace fetexc::cli {
 
@@ -28,6 +29,12 @@ struct LoadedScene {
 
 /// Two pixels a texel: what a region's samples can show, without aliasing worth seeing.
 std::uint32_t raster_size_for(std::uint32_t texels);
+
+/// As LoadedScene::source_hash.
+std::string hash_of(const std::vector<std::uint8_t>& bytes);
+
+/// texels: longer side of the texture to come.
+SvgOptions svg_options(const SceneOptions& options, std::uint32_t texels, unsigned threads);
 
 /// path "-": stdin. texels: longer side of the texture to come. threads: 0 for all; never changes the scene.
 /// Diagnostics are appended on success and on error.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The two functions of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer
+/// The functions of the module fetexc_png. OpenImageIO brings some 250 libraries along, whose loading takes longer
 /// than compiling a small drawing: only what draws a picture loads them.
 #pragma once
 
@@ -23,8 +23,22 @@ using PictureSink = void (*)(void* context, const std::uint8_t* bytes, std::uint
 using DecodePng = int (*)(const std::uint8_t* bytes, std::size_t size, std::uint32_t max_side, PictureSink sink,
                           void* context);
 
+/// How a picture of any kind was read.
+enum class ImageOutcome : int { Read = 0, Unreadable, TooLarge, Unsupported };
+
+/// Takes premultiplied, sRGB-encoded RGBA16, rows from the top, and the number of pixels that were clipped to 0…1; or
+/// on failure the reason as width bytes of UTF-8, height 0.
+using ImageSink = void (*)(void* context, const void* bytes, std::uint32_t width, std::uint32_t height,
+                           std::uint64_t clipped);
+
+/// Any image that OpenImageIO reads, turned as its Orientation says; of an EXR the display window. Refused before
+/// anything is decoded: sides of more than max_side, more than max_pixels. Calls the sink once.
+using DecodeImage = ImageOutcome (*)(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, ImageSink sink,
+                                     void* context);
+
 inline constexpr const char* kPngModule = "libfetexc_png.so";
 inline constexpr const char* kEncodePng = "fetexc_encode_png";
 inline constexpr const char* kDecodePng = "fetexc_decode_png";
+inline constexpr const char* kDecodeImage = "fetexc_decode_image";
 
 } // namespace fetexc::cli

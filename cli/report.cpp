@@ -66,6 +66,13 @@ std::string mips_text(const MipStats& m) {
                        m.own_maps);
 }
 
+std::string image_text(const ImageStats& i) {
+    return fmt::format(
+        "  image      {} x {} pixels, {} too near to a feature; {} holes filled, {} parts without a sample; {} "
+        "floating parts of features ignored; {} steps of the fit\n",
+        i.width, i.height, i.pixels_invalid, i.holes_filled, i.parts_unsampled, i.floating, i.fit_steps);
+}
+
 std::string joined(const std::vector<std::string>& words) {
     if (words.empty()) return "nothing";
     return fmt::format("{}", fmt::join(words, ", "));
@@ -140,6 +147,16 @@ Json mips_json(const MipStats& m) {
             {"ownMaps", m.own_maps}};
 }
 
+Json image_json(const ImageStats& i) {
+    return {{"width", i.width},
+            {"height", i.height},
+            {"pixelsInvalid", i.pixels_invalid},
+            {"holesFilled", i.holes_filled},
+            {"partsUnsampled", i.parts_unsampled},
+            {"floatingParts", i.floating},
+            {"fitSteps", i.fit_steps}};
+}
+
 Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics) {
@@ -151,20 +168,22 @@ Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
 }
 
 Json outcome_json(const CompileOutcome& o) {
-    return {{"input", fetex::to_valid_utf8(o.input)},
-            {"output", fetex::to_valid_utf8(o.output)},
-            {"representation", "fbt"},
-            {"width", o.width},
-            {"height", o.height},
-            {"fileBytes", o.file_bytes},
-            {"gpuBytes", o.gpu_bytes},
-            {"milliseconds", o.milliseconds},
-            {"scene", scene_json(o.report.scene)},
-            {"planar", planar_json(o.report.planar)},
-            {"fbt", fbt_json(o.report.fbt)},
-            {"mips", mips_json(o.report.mips)},
-            {"shaderPartsLeftOut", shader_parts_left_out(o.traits)},
-            {"diagnostics", diagnostics_json(o.report.diagnostics)}};
+    Json json = {{"input", fetex::to_valid_utf8(o.input)},
+                 {"output", fetex::to_valid_utf8(o.output)},
+                 {"representation", "fbt"},
+                 {"width", o.width},
+                 {"height", o.height},
+                 {"fileBytes", o.file_bytes},
+                 {"gpuBytes", o.gpu_bytes},
+                 {"milliseconds", o.milliseconds},
+                 {"scene", scene_json(o.report.scene)},
+                 {"planar", planar_json(o.report.planar)},
+                 {"fbt", fbt_json(o.report.fbt)},
+                 {"mips", mips_json(o.report.mips)},
+                 {"shaderPartsLeftOut", shader_parts_left_out(o.traits)},
+                 {"diagnostics", diagnostics_json(o.report.diagnostics)}};
+    if (o.report.image.width != 0) json["image"] = image_json(o.report.image);
+    return json;
 }
 
 } // namespace
@@ -195,6 +214,7 @@ std::string report_text(const CompileOutcome& o) {
     text += fmt::format(
         "  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n", o.width,
         o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
+    if (o.report.image.width != 0) text += image_text(o.report.image);
     text +=
         scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);
     text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));

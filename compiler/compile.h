@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/raster/image.h"
 #include "compiler/result.h"
 #include "compiler/scene/scene.h"
 #include "compiler/skip_rules.h"
@@ -64,11 +65,21 @@ struct MipStats {
     std::uint64_t paint_samples = 0;
     std::uint64_t gpu_bytes = 0; ///< FbtStats::gpu_bytes has them too
 };
+/// Of a texture made from an image (FBT §4.1–4.4).
+struct ImageStats {
+    std::uint32_t width = 0, height = 0; ///< pixels; 0: not made from an image
+    std::uint64_t pixels_invalid = 0;    ///< near a feature
+    std::uint64_t holes_filled = 0;      ///< regions without a valid pixel, filled from the closest reachable one
+    std::uint64_t parts_unsampled = 0;   ///< parts without one to reach: prefiltered pixels (W2055)
+    std::uint64_t floating = 0;  ///< parts of features that split nothing in their texel: ignored (FBT §4.5, N2151)
+    std::uint64_t fit_steps = 0; ///< of the least-squares fit
+};
 struct CompileReport {
     SceneStats scene;
     PlanarStats planar;
     FbtStats fbt;
     MipStats mips;
+    ImageStats image;
     std::vector<Diagnostic> diagnostics;
 };
 
@@ -80,6 +91,17 @@ struct FbtBuild {
 /// Builds the FBT of a scene. Errors: size out of range, arrangement limits, internal inconsistency (never a wrong
 /// result).
 Result<FbtBuild> compile_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress = {});
+
+/// An image with features over it (FBT §4.1): `features` of feature_scene, for this image.
+struct FeaturedImage {
+    RasterImage image;
+    Scene features;
+    double invalidate = 1; ///< pixels, ≥ 0: in the infinity norm; nearer to a feature a pixel is no sample (FBT §4.3)
+};
+
+/// Builds the FBT of an image. Errors: as above.
+Result<FbtBuild> compile_fbt(const FeaturedImage& picture, const CompileOptions& options,
+                             const ProgressSink& progress = {});
 
 /// The FBT at the size, in texels on the longer side, with the cheapest lookup in at most `max_bytes` on the GPU: the
 /// largest that fits. Without a limit (0) the smallest power of two of which twice as many texels make lookups cheaper

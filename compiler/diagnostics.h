@@ -23,6 +23,12 @@ inline constexpr int kSvgInternal = 1010;        ///< a library failed
 inline constexpr int kSvgFontFile = 1011;        ///< a font file can't be read or holds no font
 inline constexpr int kSvgTooManyPixels = 1012;   ///< raster layers or bitmaps beyond the limit
 
+// Images and their features (owner: compiler/raster, cli): errors
+inline constexpr int kImageUnreadable = 1101;  ///< an image that is damaged, or of a kind that OpenImageIO doesn't read
+inline constexpr int kImageTooLarge = 1102;    ///< an image of more than 16384 pixels on a side, or more than 2^26
+inline constexpr int kImageUnsupported = 1103; ///< an image with depth (deep data, a volume), or without a colour channel
+inline constexpr int kTraceFailed = 1104;      ///< features couldn't be traced
+
 // SVG front end: warnings, something of the drawing is missing or changed
 inline constexpr int kSvgTextWithoutFonts = 2001;  ///< text is not drawn, no fonts were given
 inline constexpr int kSvgFontNotFound = 2002;      ///< a font or glyph is missing
@@ -42,10 +48,21 @@ inline constexpr int kSvgDashTooFine = 2015;       ///< too many dashes, drawn s
 inline constexpr int kSvgImageDropped = 2016;      ///< a bitmap is too large or damaged
 inline constexpr int kSvgRasterReduced = 2017;     ///< a bitmap has far more pixels than the texture can show
 
+// Images and their features: warnings
+inline constexpr int kFeaturesAspect = 2051;     ///< the features' drawing has another aspect than the image, and is stretched over it
+inline constexpr int kNoFeatures = 2052;         ///< no feature lies on the image: its texture is an ordinary bilinear one
+inline constexpr int kFeaturesUnclipped = 2053;  ///< clips and masks in the features' drawing don't cut its features
+inline constexpr int kImageClipped = 2054;       ///< pixels beyond 0…1, or not finite, were clipped
+inline constexpr int kRegionsUnsampled = 2055;   ///< parts without a valid pixel to reach took prefiltered ones
+inline constexpr int kTexelsTooSmall = 2056;     ///< more than four texels a pixel along a side: gradients may stop before they reach a feature
+
 // SVG front end: notes, how something is represented
 inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer
 inline constexpr int kSvgPatternRasterised = 2102; ///< a pattern of very many tiles became a raster layer
 inline constexpr int kSvgBitmapImage = 2103;       ///< an embedded bitmap became a raster layer
+
+// Images and their features: notes
+inline constexpr int kFeaturesFloating = 2151; ///< parts of features that end inside a texel split nothing there, and were ignored
 
 // Scene (owner: compiler/scene)
 inline constexpr int kSceneExtentInvalid = 3001;     ///< canvas size not finite, not positive, or beyond double precision

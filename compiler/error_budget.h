@@ -198,6 +198,28 @@ inline constexpr double kPatchTolerance = 1.0 / 255;
 /// points determine by less than a hundredth of the spread.
 inline constexpr double kPatchRidge = 0x1p-10;
 
+/// Pixels of an image: a pixel up to so much beyond the invalidation distance may be taken for invalid: half of it for
+/// lines in place of curves, the rest for roundings (2^14 pixels to 2^-39 each).
+inline constexpr double kInvalidationSlack = 0x1p-9;
+
+/// Against a squared error of 1 a texel, where texels are no smaller than pixels: what a second difference of an
+/// image's corner values counts. (Smaller texels: times their number in a pixel, which makes it the same of the surface
+/// in pixels; the anchor below divided by it.) A detail of two texels' wavelength, that pixel centres don't see at the corners, is then left out; of four texels, 80 % are
+/// kept, and no detail comes out stronger than in the image.
+inline constexpr double kImageBending = 1.0 / 32;
+
+/// The same for a first difference: what makes values unique where bending leaves them open (a lone region).
+inline constexpr double kImageStretching = 0x1p-14;
+
+/// The same for a hole's mean to be that of the closest reachable sample: gradients go on for the fourth root of
+/// kImageBending/kImageAnchor, two texels, into a hole, beyond that the sample is copied.
+inline constexpr double kImageAnchor = 0x1p-9;
+
+/// Colour channel: the fit ends when no corner would move by more in a Jacobi step (a thirtieth of a step of 8 bits;
+/// divided by the texels in a pixel, as such a step is), or after so many steps; long chains of holes, whose values hardly depend on each other, need some hundred.
+inline constexpr double kImageFitStep = 0x1p-13;
+inline constexpr int kImageFitSteps = 400;
+
 /// Pixels: what a boundary drawn by lines from change to change is off by where it bends with a radius of a pixel or
 /// more.
 inline constexpr double kBoundaryChordError = 0.125;

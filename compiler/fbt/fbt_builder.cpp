@@ -64,9 +64,11 @@ void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
 class Builder {
   public:
     Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
-            Compositor& compositor)
+            Compositor& compositor, const SampleSource* samples = nullptr)
         : scene_(scene), options_(options), map_(map), compositor_(compositor),
           corners_(map, scene, compositor, options.threads), sampler_(map, scene, compositor, corners_),
+          samples_(samples != nullptr ? *samples : sampler_),
+          separation_(samples != nullptr ? Separation::Edges : Separation::Results),
           progress_(progress, map.grid().height) {}
 
     Result<FbtBuild> run(CompileReport report, FbtRegions* regions) {
@@ -76,7 +78,7 @@ class Builder {
         std::vector<Status> status(g.height);
         std::vector<ReachabilityRow> reach;
         for (std::uint32_t j = 0; j < g.height; ++j)
-            reach.emplace_back(map_, j);
+            reach.emplace_back(map_, j, separation_);
         parallel_for(g.height, options_.threads, [&](std::size_t j) {
             status[j] = build_row(static_cast<std::uint32_t>(j), rows[j], reach[j], stats[j]);
             progress_.row_done();
@@ -110,8 +112,9 @@ class Builder {
 
     Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow& reach, PlanarStats& stats) {
         TexelMapper mapper(map_, scene_, compositor_, stats, options_.skip);
+        if (separation_ == Separation::Edges) mapper.tell_faces_apart();
         FeatureBuilder feature_builder(map_, mapper, options_.skip);
-        RowWriter writer(map_, sampler_, out);
+        RowWriter writer(map_, samples_, out);
         TexelMap texel;
         TexelFeatures features;
         Status status;
@@ -122,7 +125,7 @@ class Builder {
             ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
             if (edges.empty() && options_.skip.empty_texels) {
                 reach.add_empty(corners_.at(i, j));
-                return writer.write_whole(sampler_.whole(i, j));
+                return writer.write_whole(samples_.whole(i, j));
             }
             if (!mapper.analyse(i, j, corner, texel) || !feature_builder.build(texel, features)) {
                 status = inconsistent(i, j);
@@ -131,7 +134,7 @@ class Builder {
             stats.edges_visible += features.edges_visible, stats.edges_invisible += features.edges_invisible;
             if (features.bands.empty()) {
                 reach.add_empty(corners_.at(i, j));
-                return writer.write_whole(sampler_.whole(i, j));
+                return writer.write_whole(samples_.whole(i, j));
             }
             const std::uint32_t vertex = reach.add_texel(texel, features.region_of_face, features.region_result);
             out.stats.bands_avoided += levels(texel) - std::min(levels(texel), features.bands.size() - 1);
@@ -240,7 +243,7 @@ class Builder {
         t.corners.resize(columns * (std::size_t{t.height} + 1));
         parallel_for(std::size_t{t.height} + 1, options_.threads, [&](std::size_t j) {
             for (std::uint32_t i = 0; i <= t.width; ++i)
-                t.corners[j * columns + i] = pack_rgba8(corners_.color(i, static_cast<std::uint32_t>(j)));
+                t.corners[j * columns + i] = pack_rgba8(samples_.corner(i, static_cast<std::uint32_t>(j)));
         });
         t.traits.translucent |= std::ranges::any_of(t.corners, [](std::uint32_t c) { return c < 0xff000000u; });
     }
@@ -251,6 +254,8 @@ class Builder {
     Compositor& compositor_;
     CornerResults corners_;
     RegionSampler sampler_;
+    const SampleSource& samples_;
+    Separation separation_;
     RowProgress progress_;
 };
 
@@ -271,17 +276,12 @@ const RegionEntry& entry_of(const std::vector<RegionEntry>& entries, const fetex
                              });
 }
 
-Status add_mips(FbtBuild& build, const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                const CompileOptions& options, const ProgressSink& progress) {
-    if (progress) progress("mip chain", 0);
+void add_mips(FbtBuild& build, std::vector<std::uint32_t> mips) {
     fetex::FbtTexture& t = build.texture;
-    Result<std::vector<std::uint32_t>> mips = build_mips(map, scene, compositor, options, build.report.mips);
-    if (!mips) return mips.error();
-    t.mips = std::move(mips).value();
+    t.mips = std::move(mips);
     t.traits.translucent |= std::ranges::any_of(t.mips, [](std::uint32_t c) { return c < 0xff000000u; });
     build.report.mips.gpu_bytes = 4 * t.mips.size();
     build.report.fbt.gpu_bytes = fetex::fbt_gpu_bytes(t);
-    return {};
 }
 
 } // namespace
@@ -300,23 +300,45 @@ GridSize grid_for(const Extent& extent, std::uint32_t longer_side) {
     return complete(extent, extent.width >= extent.height ? GridSize{longer_side, 0} : GridSize{0, longer_side});
 }
 
-Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress,
-                           FbtRegions* regions) {
-    const GridSize size = complete(scene.extent, options.size);
+Result<GridSize> texels_for(const Extent& extent, GridSize wanted) {
+    const GridSize size = complete(extent, wanted);
     if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize) {
         return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
     }
+    return size;
+}
+
+Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const SampleSource& samples,
+                                       CompileReport report, const CompileOptions& options,
+                                       const ProgressSink& progress) {
+    Compositor compositor(features, options.skip);
+    Result<FbtBuild> build =
+        Builder(features, options, progress, map, compositor, &samples).run(std::move(report), nullptr);
+    if (build && options.mips) {
+        if (progress) progress("mip chain", 0);
+        FbtBuild& made = build.value();
+        add_mips(made, mips_of_texture(made.texture, options.threads, made.report.mips));
+    }
+    return build;
+}
+
+Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress,
+                           FbtRegions* regions) {
+    const Result<GridSize> size = texels_for(scene.extent, options.size);
+    if (!size) return size.error();
     CompileReport report;
     report.scene = scene.stats;
     if (progress) progress("planar map", 0);
-    const Grid grid = make_grid(scene.extent, size.width, size.height);
+    const Grid grid = make_grid(scene.extent, size.value().width, size.value().height);
     Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
     if (!map) return map.error();
     auto compositor = std::make_unique<Compositor>(scene, options.skip);
     Result<FbtBuild> build = Builder(scene, options, progress, map.value(), *compositor).run(report, regions);
     if (build && options.mips) {
-        if (Status good = add_mips(build.value(), map.value(), scene, *compositor, options, progress); !good)
-            return good.error();
+        if (progress) progress("mip chain", 0);
+        auto mips = build_mips(map.value(), scene, *compositor, options, build.value().report.mips);
+        if (!mips) return mips.error();
+        add_mips(build.value(), std::move(mips).value());
     }
     if (regions != nullptr) regions->compositor = std::move(compositor);
     return build;

@@ -31,4 +31,13 @@ struct FbtRegions {
 Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, const ProgressSink& progress,
                            FbtRegions* regions);
 
+/// Both sides of the texture, one of them by aspect where it isn't given. Error kSizeOutOfRange.
+Result<GridSize> texels_for(const Extent& extent, GridSize size);
+
+/// The texture of a map whose edges are features whatever lies beside them (Separation::Edges), with samples from
+/// elsewhere. The report is added to.
+Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const SampleSource& samples,
+                                       CompileReport report, const CompileOptions& options,
+                                       const ProgressSink& progress);
+
 } // namespace fetexc

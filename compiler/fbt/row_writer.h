@@ -56,7 +56,7 @@ class WrittenWords {
 
 class RowWriter {
   public:
-    RowWriter(const PlanarMap& map, const RegionSampler& sampler, RowOutput& out)
+    RowWriter(const PlanarMap& map, const SampleSource& sampler, RowOutput& out)
         : map_(map), sampler_(sampler), out_(out) {}
 
     /// A texel of one region.
@@ -105,7 +105,7 @@ class RowWriter {
     void count_region(const RegionSample& sample);
 
     const PlanarMap& map_;
-    const RegionSampler& sampler_;
+    const SampleSource& sampler_;
     RowOutput& out_;
     /// Model and sample word of a region.
     struct ReadySample {

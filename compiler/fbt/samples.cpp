@@ -79,25 +79,20 @@ std::array<Rgba, 4> RegionSampler::corner_paints(std::uint32_t i, std::uint32_t 
     return {paint_at(result, x0, y0), paint_at(result, x1, y0), paint_at(result, x0, y1), paint_at(result, x1, y1)};
 }
 
-namespace {
+RegionSample solid_sample(const Rgba& c) { return {fetex::kFbtModelSolid, pack_rgba8(c), {}}; }
 
-RegionSample solid(const Rgba& c) { return {fetex::kFbtModelSolid, pack_rgba8(c), {}}; }
-
-/// A patch of four equal corners is a colour.
-RegionSample patch(const std::array<Rgba, 4>& c) {
+RegionSample patch_sample(const std::array<Rgba, 4>& c) {
     const RegionSample s{
         fetex::kFbtModelPatch, 0, {pack_rgba8(c[0]), pack_rgba8(c[1]), pack_rgba8(c[2]), pack_rgba8(c[3])}};
     const bool equal = s.patch[0] == s.patch[1] && s.patch[0] == s.patch[2] && s.patch[0] == s.patch[3];
     return equal ? RegionSample{fetex::kFbtModelSolid, s.patch[0], {}} : s;
 }
 
-} // namespace
-
 RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const {
     const ResultId result = corners_.at(i, j);
-    if (compositor_.is_solid(result)) return solid(compositor_.color(result, {}));
+    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}));
     if (corners_.worth_storing() && corners_.surround(i, j, result)) return {fetex::kFbtModelCorners, 0, {}};
-    return patch(corner_paints(i, j, result));
+    return patch_sample(corner_paints(i, j, result));
 }
 
 namespace {
@@ -233,7 +228,7 @@ std::array<Rgba, 4> least_squares(const std::vector<QuadraturePoint>& points) {
 
 RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const {
     const ResultId result = features.region_result[r];
-    if (compositor_.is_solid(result)) return solid(compositor_.color(result, {}));
+    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}));
     if (corners_.worth_storing() && corners_.surround(texel.i, texel.j, result))
         return {fetex::kFbtModelCorners, 0, {}};
     const std::array<Rgba, 4> paints = corner_paints(texel.i, texel.j, result);
@@ -242,7 +237,7 @@ RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& f
         q.paint = paint_at(result, static_cast<double>(map_.grid().px) * (texel.i + q.x),
                            static_cast<double>(map_.grid().py) * (texel.j + q.y));
     }
-    return patch(fits(paints, points) ? paints : least_squares(points));
+    return patch_sample(fits(paints, points) ? paints : least_squares(points));
 }
 
 } // namespace fetexc

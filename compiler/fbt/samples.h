@@ -46,17 +46,40 @@ class CornerResults {
 
 CanvasPoint to_canvas(const Scene& scene, const Grid& grid, double x, double y);
 
-class RegionSampler {
+/// Gives the samples of all regions: of a drawing's paints (RegionSampler), or of an image (ImageSamples). Thread-safe.
+class SampleSource {
+  public:
+    SampleSource() = default;
+    SampleSource(const SampleSource&) = delete;
+    SampleSource& operator=(const SampleSource&) = delete;
+    virtual ~SampleSource() = default;
+    /// Region of a texel without visible edges.
+    [[nodiscard]] virtual RegionSample whole(std::uint32_t i, std::uint32_t j) const = 0;
+    /// Region r of a texel.
+    [[nodiscard]] virtual RegionSample region(const TexelMap& texel, const TexelFeatures& features,
+                                              std::uint32_t r) const = 0;
+    /// Of the corner (i,j) of texel (i,j), for the model corners; premultiplied.
+    [[nodiscard]] virtual Rgba corner(std::uint32_t i, std::uint32_t j) const = 0;
+};
+
+/// A sample of the model solid.
+RegionSample solid_sample(const Rgba& premultiplied);
+/// Of the model patch; four equal corners are a colour.
+RegionSample patch_sample(const std::array<Rgba, 4>& premultiplied);
+
+class RegionSampler final : public SampleSource {
   public:
     RegionSampler(const PlanarMap& map, const Scene& scene, Compositor& compositor, const CornerResults& corners)
         : map_(map), scene_(scene), compositor_(compositor), corners_(corners) {}
 
     /// Region of an empty texel.
-    [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const;
+    [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const override;
     /// Region r of a texel. A gradient goes on beyond the region to the texel's corners, so that it has no steps from
     /// texel to texel; where that is more than a step of 8 bits off inside the region (the paint bends, or ends,
     /// between it and a corner), the patch that fits best in the least-squares sense.
-    [[nodiscard]] RegionSample region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const;
+    [[nodiscard]] RegionSample region(const TexelMap& texel, const TexelFeatures& features,
+                                      std::uint32_t r) const override;
+    [[nodiscard]] Rgba corner(std::uint32_t i, std::uint32_t j) const override { return corners_.color(i, j); }
 
   private:
     [[nodiscard]] Rgba paint_at(ResultId result, double x, double y) const;

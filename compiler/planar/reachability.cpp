@@ -52,7 +52,9 @@ void ReachabilityRow::link_to_left(const Parts& left) {
     bool undecided = false;
     facing(*map_, Axis::X, right_, left, 2 * static_cast<HalfStep>(row_) + 2, undecided,
            [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
-               if (result_[a] == result_[b])
+               if (separation_ == Separation::Edges) {
+                   if (!map_->runs_along(Axis::X, next_, row_, from, to, undecided)) links_.push_back({a, b});
+               } else if (result_[a] == result_[b])
                    links_.push_back({a, b});
                else if (!conflict_ && !map_->runs_along(Axis::X, next_, row_, from, to, undecided))
                    conflict_ = {next_, row_};
@@ -61,7 +63,7 @@ void ReachabilityRow::link_to_left(const Parts& left) {
 }
 
 std::uint32_t ReachabilityRow::add_empty(ResultId result) {
-    if (run_ && result_.back() == result) {
+    if (run_ && separation_ == Separation::Results && result_.back() == result) {
         ++next_;
         return static_cast<std::uint32_t>(result_.size() - 1);
     }
@@ -136,20 +138,24 @@ ReachabilityGraph::RowLinks ReachabilityGraph::links_of(const ReachabilityRow& r
 void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below,
                                   RowLinks& out) const {
     bool undecided = false;
-    ReachabilityRow::facing(map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width),
-                            undecided,
-                            [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
-                                if (above.result_[a] == below.result_[b]) {
-                                    out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
-                                    return;
-                                }
-                                const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
-                                for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
-                                    const auto i = static_cast<std::uint32_t>(h);
-                                    if (!map.runs_along(Axis::Y, i, below.row_, from, to, undecided))
-                                        out.conflict = {i, below.row_};
-                                }
-                            });
+    ReachabilityRow::facing(
+        map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width), undecided,
+        [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
+            const bool linked =
+                above.separation_ == Separation::Edges
+                    ? !map.runs_along(Axis::Y, static_cast<std::uint32_t>(from.h >> 1), below.row_, from, to, undecided)
+                    : above.result_[a] == below.result_[b];
+            if (above.separation_ == Separation::Edges && !linked) return;
+            if (linked) {
+                out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
+                return;
+            }
+            const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
+            for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
+                const auto i = static_cast<std::uint32_t>(h);
+                if (!map.runs_along(Axis::Y, i, below.row_, from, to, undecided)) out.conflict = {i, below.row_};
+            }
+        });
     if (undecided && !out.conflict) out.conflict = {0, below.row_};
 }
 

@@ -17,6 +17,10 @@
 
 namespace fetexc {
 
+/// What separates neighbouring texels: different results (a drawing), or edges alone (features over an image; then
+/// every texel is a vertex of its own, and results say nothing from texel to texel).
+enum class Separation : std::uint8_t { Results, Edges };
+
 /// Two regions with different results face each other although no edge runs between them: a right planar map rules it
 /// out.
 struct ReachConflict {
@@ -33,7 +37,8 @@ struct ReachLink {
 class ReachabilityRow {
   public:
     ReachabilityRow() = default;
-    ReachabilityRow(const PlanarMap& map, std::uint32_t row) : map_(&map), row_(row) {}
+    ReachabilityRow(const PlanarMap& map, std::uint32_t row, Separation separation = Separation::Results)
+        : map_(&map), separation_(separation), row_(row) {}
 
     /// The next texel has no visible edge. Returns its vertex, row-local.
     std::uint32_t add_empty(ResultId result);
@@ -63,6 +68,7 @@ class ReachabilityRow {
                     std::uint32_t first, Parts& out) const;
 
     const PlanarMap* map_ = nullptr;
+    Separation separation_ = Separation::Results;
     std::uint32_t row_ = 0, next_ = 0;  ///< next texel
     std::vector<std::uint32_t> column_; ///< per vertex: its first texel
     std::vector<ResultId> result_;

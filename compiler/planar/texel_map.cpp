@@ -78,7 +78,7 @@ bool TexelMapper::assign_results(const Windings& corner, TexelMap& out) {
     windings_[queue_[0]] = corner;
     for (std::size_t q = 0; q < queue_.size(); ++q) {
         const std::uint32_t face = queue_[q];
-        out.results[face] = lookup_(windings_[face]);
+        out.results[face] = faces_apart_ ? face : lookup_(windings_[face]);
         for (std::uint32_t k = portion_start_[face]; k < portion_start_[face + 1]; ++k) {
             const auto& [p, direction] = portion_of_face_[k];
             const Portion& portion = s.portions[p];

@@ -43,6 +43,10 @@ class TexelMapper {
         : map_(map), skip_(skip), stats_(stats), order_(map, stats), sweep_(map, order_, stats),
           arrangement_(map, order_, stats), lookup_(scene, compositor) {}
 
+    /// From now on every face of a texel has a result of its own: edges are features whatever lies beside them
+    /// (compiler/raster), and only those that split nothing are invisible.
+    void tell_faces_apart() { faces_apart_ = true; }
+
     /// corner: winding numbers at the texel's corner, from PlanarMap::along_row. False: inconsistent (reported by the
     /// caller).
     bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
@@ -63,6 +67,7 @@ class TexelMapper {
     Sweep sweep_;
     TexelArrangement arrangement_;
     ResultLookup lookup_;
+    bool faces_apart_ = false;
     // scratch
     std::vector<std::pair<std::uint32_t, std::uint32_t>> index_; ///< node → position
     std::vector<std::uint32_t> portion_start_, queue_;

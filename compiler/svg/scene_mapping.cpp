@@ -22,6 +22,8 @@ Affine to_affine(const fetexc_svg_affine& m) { return {m.a, m.b, m.c, m.d, m.e, 
 
 std::string to_string(const fetexc_svg_string& s) { return {s.text, s.length}; }
 
+} // namespace
+
 std::vector<CanvasContour> contours_of(const fetexc_svg_view& view, const fetexc_svg_shape& shape) {
     std::vector<CanvasContour> contours;
     contours.reserve(shape.count);
@@ -38,6 +40,8 @@ std::vector<CanvasContour> contours_of(const fetexc_svg_view& view, const fetexc
     }
     return contours;
 }
+
+namespace {
 
 std::vector<GradientStop> stops_of(const fetexc_svg_view& view, const fetexc_svg_paint& paint) {
     std::vector<GradientStop> stops;

@@ -68,16 +68,45 @@ void append_findings(const fetexc_svg_view& view, std::vector<Diagnostic>& out) 
 
 } // namespace
 
+namespace {
+
+Result<Document> load_document(std::span<const std::uint8_t> bytes, const SvgOptions& options, bool centre_lines,
+                               std::vector<Diagnostic>& diagnostics) {
+    OptionStrings strings;
+    fetexc_svg_options c_options = to_c(options, strings);
+    c_options.centre_lines = centre_lines ? 1 : 0;
+    fetexc_svg_error error{};
+    Document document(fetexc_svg_load(bytes.data(), bytes.size(), &c_options, &error));
+    if (!document) return to_error(error);
+    append_findings(*fetexc_svg_get(document.get()), diagnostics);
+    return document;
+}
+
+} // namespace
+
 Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& options,
                        std::vector<Diagnostic>& diagnostics) {
-    OptionStrings strings;
-    const fetexc_svg_options c_options = to_c(options, strings);
-    fetexc_svg_error error{};
-    const Document document(fetexc_svg_load(bytes.data(), bytes.size(), &c_options, &error));
-    if (!document) return to_error(error);
-    const fetexc_svg_view& view = *fetexc_svg_get(document.get());
-    append_findings(view, diagnostics);
-    return svg::to_scene(view, options.cull, diagnostics);
+    const Result<Document> document = load_document(bytes, options, false, diagnostics);
+    if (!document) return document.error();
+    return svg::to_scene(*fetexc_svg_get(document.value().get()), options.cull, diagnostics);
+}
+
+Result<FeatureCurves> load_svg_features(std::span<const std::uint8_t> bytes, const SvgOptions& options,
+                                        std::vector<Diagnostic>& diagnostics) {
+    const Result<Document> document = load_document(bytes, options, true, diagnostics);
+    if (!document) return document.error();
+    const fetexc_svg_view& view = *fetexc_svg_get(document.value().get());
+    if (view.clip_count + view.mask_count > 0)
+        diagnostics.push_back({Severity::Warning, diag::kFeaturesUnclipped,
+                               "clips and masks in the features' drawing don't cut its features", ""});
+    FeatureCurves features{view.width, view.height, {}};
+    for (std::uint32_t n = 0; n < view.root_end; ++n) {
+        const fetexc_svg_node& node = view.nodes[n];
+        if (node.kind != FETEXC_SVG_FILL || view.paints[node.paint].kind == FETEXC_SVG_RASTER) continue;
+        for (CanvasContour& contour : svg::contours_of(view, view.shapes[node.shape]))
+            features.runs.push_back(std::move(contour));
+    }
+    return features;
 }
 
 } // namespace fetexc

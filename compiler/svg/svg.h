@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/raster/feature_scene.h"
 #include "compiler/result.h"
 #include "compiler/scene/scene.h"
 
@@ -44,5 +45,11 @@ struct SvgOptions {
 /// On error 1009 (time) a library that can't be interrupted may go on working in the background until it ends.
 Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& options,
                        std::vector<Diagnostic>& diagnostics);
+
+/// The drawing as features over an image: the edges of what is filled, of stroke outlines, and the middles of strokes
+/// of shapes without fill, which may be open; bitmaps have none. Frame: the drawing's canvas. Clips and masks are not
+/// applied (warning 2053). Otherwise as load_svg.
+Result<FeatureCurves> load_svg_features(std::span<const std::uint8_t> bytes, const SvgOptions& options,
+                                        std::vector<Diagnostic>& diagnostics);
 
 } // namespace fetexc

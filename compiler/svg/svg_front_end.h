@@ -31,7 +31,7 @@ typedef struct {
     double p[8];
 } fetexc_svg_segment;
 
-/** Closed: segments [first, first+count) join end to start. */
+/** Segments [first, first+count) join end to start; closed, but for what option centre_lines gives. */
 typedef struct {
     uint32_t first, count;
 } fetexc_svg_contour;
@@ -136,7 +136,8 @@ typedef struct {
     double stroke_tolerance; /* the same for stroke outlines */
     uint64_t max_bytes, max_elements, max_segments, max_raster_bytes;
     uint32_t max_nesting, max_milliseconds;
-    uint32_t threads, reserved; /* 0: all; never changes what comes out */
+    uint32_t threads;      /* 0: all; never changes what comes out */
+    uint32_t centre_lines; /* strokes of shapes without fill as the lines themselves: contours that may be open */
 } fetexc_svg_options;
 
 typedef struct {

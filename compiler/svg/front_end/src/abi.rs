@@ -180,7 +180,7 @@ pub struct Options {
     pub max_nesting: u32,
     pub max_milliseconds: u32,
     pub threads: u32,
-    pub reserved: u32,
+    pub centre_lines: u32,
 }
 
 #[repr(C)]

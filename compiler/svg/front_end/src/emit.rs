@@ -9,7 +9,7 @@ use usvg::{BlendMode, Group, Node};
 use crate::abi;
 use crate::budget::{Budget, Failure};
 use crate::document::Drawing;
-use crate::geom::{fill_contours, map_is_finite, Contour, Path};
+use crate::geom::{fill_contours, line_contours, map_is_finite, Contour, Path};
 use crate::outline::outline_of;
 use crate::outlines_ahead::{outlines_ahead, Context, OutlinesAhead};
 use crate::recover::{Origin, Recovery};
@@ -26,6 +26,7 @@ pub struct Emitter<'a> {
     pub arc_tolerance: f64,
     pub stroke_tolerance: f64,
     pub threads: usize,
+    pub centre_lines: bool,
     ahead: OutlinesAhead,
     /// Pixels per user unit of raster layers.
     pub raster_scale: f64,
@@ -72,6 +73,7 @@ impl<'a> Emitter<'a> {
             arc_tolerance: tolerances.arc,
             stroke_tolerance: tolerances.stroke,
             threads: 1,
+            centre_lines: false,
             ahead: OutlinesAhead::default(),
             raster_scale: 1.0,
             raster_bytes_left: 0,
@@ -281,6 +283,10 @@ impl<'a> Emitter<'a> {
         element: u32,
     ) -> Result<(), Failure> {
         let Some(stroke) = p.stroke() else { return Ok(()) };
+        if self.centre_lines && p.fill().is_none() {
+            let contours = line_contours(path, to_root, self.arc_tolerance);
+            return self.painted(&contours, false, &usvg::Paint::Color(usvg::Color::black()), 1.0, to_root, element);
+        }
         let outline = match self.ahead.take(p, to_root, self.budget)? {
             Some(outline) => outline,
             None => outline_of(stroke, path, origin, to_root, self.stroke_tolerance, self.budget)?,

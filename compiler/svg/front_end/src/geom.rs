@@ -188,13 +188,19 @@ impl Seg {
 
 /// Closed contours of a filled path in the target space.
 pub fn fill_contours(path: &Path, to_target: &Affine, arc_tolerance: f64) -> Vec<Contour> {
+    let mut out = line_contours(path, to_target, arc_tolerance);
+    out.iter_mut().for_each(close_contour);
+    out
+}
+
+/// The same, open where the path is.
+pub fn line_contours(path: &Path, to_target: &Affine, arc_tolerance: f64) -> Vec<Contour> {
     let mut out = Vec::with_capacity(path.len());
     for sub in path {
         let mut contour = Contour::with_capacity(sub.segs.len() + 1);
         for seg in &sub.segs {
             seg.transform(to_target).append_beziers(arc_tolerance, &mut contour);
         }
-        close_contour(&mut contour);
         if !contour.is_empty() {
             out.push(contour);
         }

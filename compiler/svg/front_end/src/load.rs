@@ -37,6 +37,8 @@ pub struct Settings {
     pub time: Duration,
     /// At least 1. Changes nothing but the time.
     pub threads: usize,
+    /// Strokes of shapes without fill stay lines.
+    pub centre_lines: bool,
 }
 
 /// Images named by the drawing, as usvg asks for them.
@@ -229,7 +231,8 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     let tolerances = Tolerances { arc: settings.arc_tolerance * side, stroke: settings.stroke_tolerance * side };
     let mut emitter = Emitter::new(recovery, report, &mut budget, tolerances);
     emitter.raster_scale = settings.raster_pixels as f64 / side;
-    emitter.threads = settings.threads;
+    emitter.centre_lines = settings.centre_lines;
+    emitter.threads = if settings.centre_lines { 1 } else { settings.threads };
     emitter.raster_bytes_left = settings.max_raster_bytes;
     emitter.picture(&tree)?;
     finish(emitter)

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/raster/feature_scene.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fetexc {
+namespace {
+
+/// There and back, so that it is closed; a lone line twice, as one pair of lines would be dropped as empty.
+CanvasContour there_and_back(const CanvasContour& run) {
+    CanvasContour out = run;
+    for (auto s = run.rbegin(); s != run.rend(); ++s) {
+        out.push_back(*s);
+        std::reverse(out.back().p.begin(), out.back().p.begin() + s->degree + 1);
+    }
+    if (run.size() == 1) out.insert(out.end(), {out[0], out[1]});
+    return out;
+}
+
+/// The direction that compiler/planar/merged_curves calls +1: the smaller control polygon.
+void orient(Segment& s) {
+    const auto end = s.p.begin() + s.degree + 1;
+    if (std::lexicographical_compare(std::make_reverse_iterator(end), s.p.rend(), s.p.begin(), end))
+        std::reverse(s.p.begin(), end);
+}
+
+auto key(const Segment& s) { return std::tie(s.degree, s.p); }
+
+void keep_each_once(std::vector<Segment>& segments) {
+    for (Segment& s : segments)
+        orient(s);
+    std::ranges::sort(segments, [](const Segment& a, const Segment& b) { return key(a) < key(b); });
+    const auto rest =
+        std::ranges::unique(segments, [](const Segment& a, const Segment& b) { return key(a) == key(b); });
+    segments.erase(rest.begin(), rest.end());
+}
+
+} // namespace
+
+Result<Scene> feature_scene(const FeatureCurves& features, std::uint32_t image_width, std::uint32_t image_height) {
+    SceneBuilder builder(image_width, image_height);
+    const double sx = image_width / features.width, sy = image_height / features.height;
+    std::vector<CanvasContour> contours;
+    std::uint64_t segments = 0;
+    for (const CanvasContour& run : features.runs) {
+        if (run.empty()) continue;
+        segments += run.size();
+        contours.push_back(there_and_back(run));
+        for (CanvasSegment& s : contours.back()) {
+            for (CanvasPoint& p : s.p)
+                p = {p.x * sx, p.y * sy};
+        }
+    }
+    const std::uint32_t element = builder.add_element("features");
+    Node node;
+    node.end = 1;
+    node.shape = builder.add_shape(std::move(contours), FillRule::NonZero, element);
+    node.paint = 0;
+    node.element = element;
+    builder.scene().paints.emplace_back(SolidPaint{{0, 0, 0, 1}});
+    builder.scene().nodes.push_back(node);
+    builder.scene().root_end = 1;
+    Result<Scene> scene = builder.finish({.cull = false});
+    if (!scene) return scene;
+    keep_each_once(scene.value().segments);
+    scene.value().shapes[0].count = static_cast<std::uint32_t>(scene.value().segments.size());
+    scene.value().stats.segments_in = segments;
+    return scene;
+}
+
+bool has_features(const Scene& scene) {
+    return std::ranges::any_of(scene.segments, [&](const Segment& s) {
+        const auto [x0, x1] = std::minmax_element(s.p.begin(), s.p.begin() + s.degree + 1,
+                                                  [](const auto& a, const auto& b) { return a.x < b.x; });
+        const auto [y0, y1] = std::minmax_element(s.p.begin(), s.p.begin() + s.degree + 1,
+                                                  [](const auto& a, const auto& b) { return a.y < b.y; });
+        return x0->x <= scene.extent.lattice_w && x1->x >= 0 && y0->y <= scene.extent.lattice_h && y1->y >= 0;
+    });
+}
+
+} // namespace fetexc
