@@ -273,6 +273,11 @@ TEST(Validator, whatItTakesCanBeSampled) {
             const FbtColor c =
                 fbt_sample(t, static_cast<double>(random() % 2049) / 1024, static_cast<double>(random() % 2049) / 1024);
             ASSERT_TRUE(c.r >= 0 && c.r <= 1 + 1e-12 && c.a >= 0 && c.a <= 1 + 1e-12);
+            if (k % 8 != 0) continue;
+            const FbtPixel pixel{static_cast<double>(1 + random() % 512) / 1024, 0.3, k % 16 == 0};
+            const FbtColor mean = fbt_sample_area(t, static_cast<double>(random() % 2049) / 1024,
+                                                  static_cast<double>(random() % 2049) / 1024, pixel);
+            ASSERT_TRUE(mean.r >= 0 && mean.r <= 1 + 1e-12 && mean.a >= 0 && mean.a <= 1 + 1e-12);
         }
     }
     EXPECT_GT(taken, 1000);
