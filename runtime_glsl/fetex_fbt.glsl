@@ -88,7 +88,7 @@ vec2 fetexFbtPoint(uint word, bool swapped) {
 }
 
 // Half-open in y: a ray through a point that two pieces share counts it once.
-bool fetexFbtInSpan(float y0, float y1, float y) { return (y >= min(y0, y1)) != (y >= max(y0, y1)); }
+bool fetexFbtInSpan(float y0, float y1, float y) { return (y >= y0) != (y >= y1); }
 
 #if (FETEX_FBT_DEGREES & 2) != 0
 bool fetexFbtCrossesLine(vec2 a, vec2 b, vec2 p, bool negative) {
@@ -177,11 +177,16 @@ bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
 #if (FETEX_FBT_DEGREES & 2) != 0
     uint lines = degree == 1u ? count : 0u;
     if (lines > 0u) {
+#if FETEX_FBT_SHARED
         vec2 start = fetexFbtPoint(fetexFbtWord(a, at & 3u), swapped);
+#else
+        vec2 start = fetexFbtPoint(entry.z, swapped);
+#endif
         for (uint k = 0u; k < lines; ++k) {
             ++at;
-            if ((at & 3u) == 0u) a = fetexFbtRecord(at >> 2u);
-            vec2 end = fetexFbtPoint(fetexFbtWord(a, at & 3u), swapped);
+            uint slot = at & 3u;
+            if (slot == 0u) a = fetexFbtRecord(at >> 2u);
+            vec2 end = fetexFbtPoint(fetexFbtWord(a, slot), swapped);
             odd = odd != fetexFbtCrossesLine(start, end, p, negative);
             start = end;
         }

@@ -76,7 +76,8 @@ std::string fbt_specialisation(const FbtTraits& traits) {
            define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_CORNERS", traits.corners) +
            define("FETEX_FBT_PATCHES", traits.patches) + define("FETEX_FBT_SHARED", traits.shared) +
            define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions) +
-           define("FETEX_FBT_MAX_DEPTH", traits.max_depth);
+           define("FETEX_FBT_MAX_DEPTH", traits.max_depth) +
+           (traits.max_entries == 1 ? define("FETEX_FBT_MAX_ENTRIES", 1) : ""); // no loop; else assets share a shader
 }
 
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
