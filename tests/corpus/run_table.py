@@ -19,7 +19,7 @@ import corpus
 
 LEAST_DB = 35
 PIXELS_A_TEXEL = 8
-COMPARE_LIMIT = 300  # seconds
+COMPARE_LIMIT = 900  # seconds
 
 
 def measure(fetexc, path, texels, folder):
