@@ -124,7 +124,8 @@ FbtColor fbt_sample(const FbtTexture& texture, double x, double y);
 /// As fbt_sample, for a point given as integer base texel plus local offset in [0,1)² (deep zoom).
 FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy);
 
-/// A pixel: a rectangle along the axes of the texture around the point, in texels; half a side is above 0, at most 1/2.
+/// A pixel: a rectangle along the axes of the texture around the point, in texels. Half a side from 2^-16 (half a step
+/// of the points' grid) to 1/2; less and more count as these.
 struct FbtPixel {
     double half_width = 0.5, half_height = 0.5;
     bool exact = false; ///< every texel that it overlaps is looked at

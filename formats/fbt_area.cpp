@@ -22,6 +22,9 @@ struct Point {
 /// Part of a pixel's side that isn't looked at beyond its texel: single precision can't tell it from nothing.
 constexpr double kLeast = 1e-5;
 
+/// Half a side of the smallest pixel: below it single precision has no bits left for what is inside.
+constexpr double kLeastHalf = 0x1p-16;
+
 /// A rectangle in the frame of a texel.
 struct Box {
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -286,7 +289,9 @@ FbtColor corner_color(const FbtTexture& texture, const Share& s, const Box& box)
 
 FbtColor fbt_sample_area_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy,
                                FbtPixel pixel) {
-    Box box{fx - pixel.half_width, fx + pixel.half_width, fy - pixel.half_height, fy + pixel.half_height};
+    const double half_x = std::clamp(pixel.half_width, kLeastHalf, 0.5),
+                 half_y = std::clamp(pixel.half_height, kLeastHalf, 0.5);
+    Box box{fx - half_x, fx + half_x, fy - half_y, fy + half_y};
     const int across = overlap(box.x0, box.x1, i, texture.width), down = overlap(box.y0, box.y1, j, texture.height);
     FbtColor sum;
     Share corners,

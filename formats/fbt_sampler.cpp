@@ -140,6 +140,9 @@ void find_region(FbtRegion& region, const FbtTexture& texture, std::uint32_t rec
     }
 }
 
+/// At the texture's far border a ray along it would miss what ends there.
+double inside(double local) { return std::min(local, 1 - 0x1p-24); }
+
 std::uint32_t base_texel(double v, std::uint32_t size) { return std::min(static_cast<std::uint32_t>(v), size - 1); }
 
 } // namespace
@@ -189,13 +192,13 @@ FbtColor fbt_shade(const FbtTexture& texture, const FbtRegion& region, double fx
 FbtRegion fbt_locate(const FbtTexture& texture, double x, double y) {
     const double cx = fbt_clamp_coordinate(x, texture.width), cy = fbt_clamp_coordinate(y, texture.height);
     const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
-    return fbt_locate_local(texture, i, j, cx - i, cy - j);
+    return fbt_locate_local(texture, i, j, inside(cx - i), inside(cy - j));
 }
 
 FbtColor fbt_sample(const FbtTexture& texture, double x, double y) {
     const double cx = fbt_clamp_coordinate(x, texture.width), cy = fbt_clamp_coordinate(y, texture.height);
     const std::uint32_t i = base_texel(cx, texture.width), j = base_texel(cy, texture.height);
-    return fbt_sample_local(texture, i, j, cx - i, cy - j);
+    return fbt_sample_local(texture, i, j, inside(cx - i), inside(cy - j));
 }
 
 FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy) {

@@ -321,5 +321,5 @@ vec4 fetexFbtSample(vec2 uv) {
     ivec2 size = fetexFbtSize();
     vec2 position = clamp(uv, 0.0, 1.0) * vec2(size);
     ivec2 base = min(ivec2(position), size - 1);
-    return fetexFbtSampleTexel(base, position - vec2(base));
+    return fetexFbtSampleTexel(base, min(position - vec2(base), vec2(16777215.0 / 16777216.0)));
 }

@@ -5,8 +5,8 @@
 //   vec4 fetexFbtSampleArea(vec2 uv, vec2 halfPixel)                       uv in [0,1]^2
 //   vec4 fetexFbtSampleAreaTexel(ivec2 base, vec2 local, vec2 halfPixel)   deep zoom: integer texel and offset in it
 //
-// halfPixel: half the sides of the pixel along the axes of the texture, in texels, above 0; more than 1/2 is taken as
-// 1/2. For a pixel that is turned against the texture: half the lengths of the rows of the Jacobian of the texel
+// halfPixel: half the sides of the pixel along the axes of the texture, in texels; less than 2^-16 and more than 1/2 are
+// taken as these. For a pixel that is turned against the texture: half the lengths of the rows of the Jacobian of the texel
 // coordinates, 0.5 * sqrt(dFdx(p)^2 + dFdy(p)^2).
 #ifndef FETEX_FBT_MAX_DEPTH
 #define FETEX_FBT_MAX_DEPTH 7 // features around a feature; 0: none lies in another
@@ -339,7 +339,7 @@ int fetexFbtOverlap(inout float low, inout float high, int base, int size) {
 vec4 fetexFbtSampleAreaTexel(ivec2 base, vec2 local, vec2 halfPixel) {
     ivec2 size = fetexFbtSize();
     base = clamp(base, ivec2(0), size - 1);
-    halfPixel = min(halfPixel, vec2(0.5));
+    halfPixel = clamp(halfPixel, vec2(1.0 / 65536.0), vec2(0.5));
     vec2 low = local - halfPixel, high = local + halfPixel;
     ivec2 side;
     side.x = fetexFbtOverlap(low.x, high.x, base.x, size.x);

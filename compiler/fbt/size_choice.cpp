@@ -47,6 +47,9 @@ class SizeSearch {
         std::uint64_t bytes = 0, least = UINT64_MAX;
         std::optional<Error> error;
         const auto fits = [&](std::uint32_t size) {
+            const GridSize grid = grid_for(scene_.extent, size);
+            bytes = sizeof(std::uint32_t) * grid.width * grid.height; // of the texels alone
+            if (bytes > max_bytes && size > kFewest) return false;
             Result<FbtBuild> tried = build(size);
             if (!tried) {
                 error = tried.error();
@@ -67,8 +70,10 @@ class SizeSearch {
         for (std::uint32_t step = good / 2; good > 0 && step > good / 64 && !error; step /= 2) {
             if (good + step <= kLargestGrid && fits(good + step)) good += step;
         }
+        for (std::uint32_t size = kFewest - 1; size > 0 && !best && !error; --size)
+            fits(size);
+        if (best) return std::move(*best); // also if a larger size met an error
         if (error) return *error;
-        if (best) return std::move(*best);
         return Error{ErrorClass::Unsupported, diag::kFbtBudget,
                      "the drawing doesn't fit in " + std::to_string(max_bytes) + " bytes: it takes " +
                          std::to_string(least),

@@ -25,7 +25,7 @@ struct AxisGrid {
 /// A texel-space coordinate as the samplers take it.
 struct BaseAndLocal {
     std::uint32_t base = 0; ///< 0 … size−1
-    double local = 0;       ///< multiple of 2^-24 in [0,1), exact in float; 1 at and beyond the far border
+    double local = 0;       ///< multiple of 2^-24 in [0,1), exact in float; the last one at and beyond the far border
 };
 
 /// The axis of the tile whose first pixel is first_pixel. view_start and view_extent in texture space, size in texels,

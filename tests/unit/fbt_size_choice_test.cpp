@@ -30,6 +30,10 @@ TEST(SizeChoice, saysWhatItTakesWhenNothingFits) {
     const auto chosen = compile_fbt_at_chosen_size(disc(), {}, 100);
     ASSERT_FALSE(chosen.ok());
     EXPECT_EQ(chosen.error().code, diag::kFbtBudget);
+    // A picture of one colour takes a word a texel: four texels fit in 16 bytes.
+    const auto plain = compile_fbt_at_chosen_size(test::black_on_white({}), {}, 16);
+    ASSERT_TRUE(plain.ok());
+    EXPECT_EQ(plain.value().report.fbt.gpu_bytes, 16u);
 }
 
 TEST(SizeChoice, withoutALimitStopsWhereLookupsGetNoCheaper) {

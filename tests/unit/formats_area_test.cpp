@@ -245,6 +245,16 @@ TEST(Area, exactLooksAtEveryTexel) {
     expect_color(fbt_sample_area(t, 1, 0.5, {0.5, 0.5}), 0.5, 0, 0.5, 1e-4); // as if it went on straight
 }
 
+/// Pixels of no size are of the least: the colour of the point, but beside an edge.
+TEST(Area, ofNothingIsThePoint) {
+    const FbtTexture t = texture_of({run(1, kFbtRayPosX, {{0.5, 0}, {0.5, 1}}, kRed)}, kBlue);
+    for (const double half : {0.0, 1e-300, 1e-12, -1.0}) {
+        expect_color(fbt_sample_area(t, 0.4999, 0.3, {half, half}), 1, 0, 0);
+        expect_color(fbt_sample_area(t, 0.5001, 0.3, {half, half, true}), 0, 0, 1);
+    }
+    expect_color(fbt_sample_area(t, 0.5, 0.5, {7, 7}), 0.5, 0, 0.5);
+}
+
 TEST(Area, ofGradientsIsTheirMiddle) {
     FbtTexture t;
     t.width = 1, t.height = 1;

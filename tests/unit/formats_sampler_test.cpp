@@ -34,8 +34,9 @@ using fetexc::test::shaded_texel;
 using fetexc::test::solid_texel;
 
 MadeRun made(const FeatureRun& run) {
-    MadeRun out{run.degree, run.direction, static_cast<std::uint32_t>(run.points.size() - 1) / run.degree, {}, 0,
-                run.last, {run.model, run.color}};
+    MadeRun out{
+        run.degree, run.direction,         static_cast<std::uint32_t>(run.points.size() - 1) / run.degree, {}, 0,
+        run.last,   {run.model, run.color}};
     for (const P& p : run.points)
         out.points.push_back(fbt_pack_point(p.x, p.y));
     return out;
@@ -307,7 +308,8 @@ TEST(Sampler, cornersAreInterpolatedAndReachBeyondTheLastTexel) {
     EXPECT_TRUE(m.t.traits.corners);
     for (double y = 0; y <= 2; y += 0.25)
         for (double x = 0; x <= 2; x += 0.25)
-            EXPECT_NEAR(fbt_sample(m.t, x, y).r * 255, 10 * x + 30 * y, 1e-9) << x << " " << y;
+            EXPECT_NEAR(fbt_sample(m.t, x, y).r * 255, 10 * x + 30 * y, 1e-5)
+                << x << " " << y; // the border is 2^-24 inside
 }
 
 /// Each side of a feature has its own gradient: a patch inside, the texel's corners outside.
@@ -315,8 +317,8 @@ TEST(Sampler, regionsHaveModelsOfTheirOwn) {
     Maker m;
     m.t.corners = {0xff000000, 0xff000064, 0xff000000, 0xff000064}; // 100 a column
     const std::uint32_t patch = append_patch(m.t.records, 0xff0000c8, 0xff0000c8, 0xff000000, 0xff000000);
-    m.t.texels[0] = kFbtKindSingle << 30 |
-                    m.list({{1, kFbtRayPosX, {{0.5, 0}, {0.5, 1}}, patch, true, kFbtModelPatch}}, {kFbtModelCorners, 0});
+    m.t.texels[0] = kFbtKindSingle << 30 | m.list({{1, kFbtRayPosX, {{0.5, 0}, {0.5, 1}}, patch, true, kFbtModelPatch}},
+                                                  {kFbtModelCorners, 0});
     m.check();
     EXPECT_NEAR(fbt_sample(m.t, 0.25, 0.25).r * 255, 0.75 * 200, 1e-9);
     EXPECT_NEAR(fbt_sample(m.t, 0.75, 0.25).r * 255, 75, 1e-9);
@@ -387,6 +389,18 @@ TEST(QueryStats, countEachPieceOnce) {
     EXPECT_EQ(all.queries, 2000u);
     EXPECT_GT(all.solved[1] * all.solved[2] * all.solved[3] * all.box * all.outside * all.bands, 0u);
     EXPECT_EQ(all.pieces, all.outside + all.box + all.solved[1] + all.solved[2] + all.solved[3]);
+}
+
+/// The border is repeated: a point on it sees what ends there.
+TEST(Sampler, seesWhatEndsAtTheFarBorder) {
+    for (const std::uint32_t ray : {kFbtRayPosY, kFbtRayNegY}) {
+        Maker m;
+        m.single({{1, ray, {{0, 0.25}, {1, 0.75}}, kRed}}, kBlue);
+        m.t.traits = fbt_traits(m.t);
+        const bool above = ray == kFbtRayPosY;
+        EXPECT_EQ(fbt_sample(m.t, 1, 0.7).r, above ? 1 : 0);
+        EXPECT_EQ(fbt_sample(m.t, 5, 0.8).r, above ? 0 : 1);
+    }
 }
 
 } // namespace
