@@ -121,6 +121,10 @@ struct FbtColor {
 };
 FbtColor fbt_sample(const FbtTexture& texture, double x, double y);
 
+/// Largest local offset that fbt_sample looks up, and the offset of points at the far border and beyond it. On the border
+/// itself a ray along it misses what ends there; half a step of the points' grid away, single precision has room.
+inline constexpr double kFbtFarBorder = 1 - 0x1p-16;
+
 /// As fbt_sample, for a point given as integer base texel plus local offset in [0,1)² (deep zoom).
 FbtColor fbt_sample_local(const FbtTexture& texture, std::uint32_t i, std::uint32_t j, double fx, double fy);
 

@@ -140,8 +140,7 @@ void find_region(FbtRegion& region, const FbtTexture& texture, std::uint32_t rec
     }
 }
 
-/// At the texture's far border a ray along it would miss what ends there.
-double inside(double local) { return std::min(local, 1 - 0x1p-24); }
+double inside(double local) { return std::min(local, kFbtFarBorder); }
 
 std::uint32_t base_texel(double v, std::uint32_t size) { return std::min(static_cast<std::uint32_t>(v), size - 1); }
 

@@ -2,7 +2,8 @@
 // Feature-based textures (Ramanarayanan, Bala, Walter, EGSR 2004): the sampler. Layout and semantics: formats/SPEC.md.
 //
 //   vec4 fetexFbtSample(vec2 uv)                        uv in [0,1]^2, x right, y down, edges repeated
-//   vec4 fetexFbtSampleTexel(ivec2 base, vec2 local)    deep zoom: integer texel and offset in it, [0,1]^2
+//   vec4 fetexFbtSampleTexel(ivec2 base, vec2 local)    deep zoom: integer texel and offset in it, [0,1)^2; at the far
+//                                                       border and beyond 1 - 2^-16
 //
 // Both give premultiplied, sRGB-encoded RGBA. fp32 uv is good to about 1000 pixels per texel; beyond that split the
 // coordinate in integers or doubles and call the second.
@@ -321,5 +322,5 @@ vec4 fetexFbtSample(vec2 uv) {
     ivec2 size = fetexFbtSize();
     vec2 position = clamp(uv, 0.0, 1.0) * vec2(size);
     ivec2 base = min(ivec2(position), size - 1);
-    return fetexFbtSampleTexel(base, min(position - vec2(base), vec2(16777215.0 / 16777216.0)));
+    return fetexFbtSampleTexel(base, min(position - vec2(base), vec2(65535.0 / 65536.0)));
 }

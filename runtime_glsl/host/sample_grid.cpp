@@ -33,7 +33,7 @@ ImageAxis::ImageAxis(double view_start, double view_extent, std::uint32_t size, 
 BaseAndLocal base_and_local(std::int64_t position, std::uint32_t size) {
     const std::int64_t whole = position >> 32;
     if (whole < 0) return {0, 0.0};
-    if (whole >= size) return {size - 1, 1 - 0x1p-24}; // at 1 itself a ray along y misses what ends at the border
+    if (whole >= size) return {size - 1, kFbtFarBorder};
     const auto fraction = static_cast<std::uint32_t>(position);
     return {static_cast<std::uint32_t>(whole), static_cast<double>(fraction >> 8) * 0x1p-24};
 }

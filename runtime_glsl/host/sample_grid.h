@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "formats/fbt.h"
 #include "runtime_glsl/host/image.h"
 
 namespace fetex {
@@ -25,7 +26,7 @@ struct AxisGrid {
 /// A texel-space coordinate as the samplers take it.
 struct BaseAndLocal {
     std::uint32_t base = 0; ///< 0 … size−1
-    double local = 0;       ///< multiple of 2^-24 in [0,1), exact in float; the last one at and beyond the far border
+    double local = 0;       ///< multiple of 2^-24 in [0,1), exact in float; kFbtFarBorder at and beyond the far border
 };
 
 /// The axis of the tile whose first pixel is first_pixel. view_start and view_extent in texture space, size in texels,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The GLSL sampler equals the CPU reference within 1/255 in every pixel that isn't on an edge, on every back end that
 /// this machine has, in every dialect that runs there.
+#include <array>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "formats/validate.h"
 #include "tests/conformance/compare_renderers.h"
+#include "tests/support/fbt_maker.h"
 #include "tests/support/random_fbt.h"
 
 namespace fetexc::test {
@@ -148,6 +150,39 @@ TEST_P(Conformance, areaSamplesAsTheReferenceDoes) {
                 EXPECT_LE(different, reference.value().rgba.size() / 1000)
                     << "seed " << seed << ", " << magnification << " px/texel, filter " << static_cast<int>(filter);
             }
+        }
+    }
+}
+
+/// What touches the far border, and what is beyond it: the tip of a wedge above a pixel's centre (random texture 6: at
+/// 2^-24 texel from it single precision can't say which of its sides a point is on), and curves along the border.
+TEST_P(Conformance, drawsWhatTouchesTheFarBorder) {
+    using Points = std::vector<std::array<double, 2>>;
+    struct Case {
+        std::uint32_t degree;
+        Points points;
+    };
+    for (const Case& c : {Case{1, {{0.78, -0.196}, {0.4375, 1}, {0.857, 0.125}}}, Case{1, {{0, 1}, {1, 1}}},
+                          Case{2, {{0, 1}, {0.5, 1}, {1, 1}}}, Case{3, {{0, 1}, {0.25, 1}, {0.75, 1}, {1, 1}}}}) {
+        for (const bool right : {false, true}) {
+            std::vector<std::uint32_t> points;
+            for (const auto& [x, y] : c.points)
+                points.push_back(right ? fetex::fbt_pack_point(y, x) : fetex::fbt_pack_point(x, y));
+            // Rays towards the border cross what lies along it; rays along it the wedge.
+            const bool along = c.points.size() == 3 && c.degree == 1;
+            const std::uint32_t ray = right != along ? fetex::kFbtRayPosX : fetex::kFbtRayPosY;
+            const auto pieces = static_cast<std::uint32_t>(points.size() - 1) / c.degree;
+            FbtTexture t;
+            t.width = t.height = 1;
+            t.texels = {
+                fetex::kFbtKindSingle << 30 |
+                append_list(t.records, {{c.degree, ray, pieces, points, 0, true, {fetex::kFbtModelSolid, 0xff0000ff}}},
+                            {fetex::kFbtModelSolid, 0xffff0000})};
+            t.traits = fetex::fbt_traits(t);
+            ASSERT_TRUE(fetex::validate_fbt(t).empty()) << fetex::validate_fbt(t)[0].message;
+            ASSERT_FALSE(renderer_->upload(t).has_value());
+            const Comparison found = compare_frame(t, *renderer_, {-0.5, -0.5, 2, 2}, 16, 16);
+            EXPECT_TRUE(found.equal()) << c.degree << right << found.first_wrong;
         }
     }
 }

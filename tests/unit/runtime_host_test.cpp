@@ -50,7 +50,7 @@ TEST(SampleGrid, clampsToTheTexture) {
     EXPECT_EQ(base_and_local(-1, 8).base, 0u);
     EXPECT_EQ(base_and_local(-1, 8).local, 0.0);
     EXPECT_EQ(base_and_local(std::int64_t{8} << 32, 8).base, 7u);
-    EXPECT_EQ(base_and_local(std::int64_t{8} << 32, 8).local, 1 - 0x1p-24);
+    EXPECT_EQ(base_and_local(std::int64_t{8} << 32, 8).local, kFbtFarBorder);
     EXPECT_EQ(base_and_local((std::int64_t{8} << 32) - 1, 8).base, 7u);
     EXPECT_LT(base_and_local((std::int64_t{8} << 32) - 1, 8).local, 1.0);
 }

@@ -42,7 +42,7 @@ void fetexPosition(uvec2 q, out ivec2 base, out vec2 local) {
 // Outside the texture the nearest point of its border.
 void fetexClampPosition(inout ivec2 base, inout vec2 local, ivec2 size) {
     local = mix(local, vec2(0.0), lessThan(base, ivec2(0)));
-    local = mix(local, vec2(16777215.0 / 16777216.0), greaterThanEqual(base, size));
+    local = mix(local, vec2(65535.0 / 65536.0), greaterThanEqual(base, size));
     base = clamp(base, ivec2(0), size - 1);
 }
 
