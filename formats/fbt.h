@@ -11,7 +11,8 @@
 ///   1 single   bits 0..29 record of its entry list
 ///   2 banded   bits 0..29 record of its band directory
 ///   3 shaded   one region that isn't solid: bits 28..29 its model, bits 0..27 its sample
-/// Corners: none, or (width+1)×(height+1) samples, row-major: the colour at the corner (i,j) of texel (i,j).
+/// Corners: none, or (width+1)×(height+1) samples in the sample format, row-major: the colour at the corner (i,j) of
+/// texel (i,j).
 /// Mips: none, or a chain of smaller pictures for minification (formats/fbt_mip.h).
 /// Records: 4 words each.
 ///   band directory: word n, then n u16 y_end (quantised, two a word, the even one in the low half), then n words, the
@@ -33,7 +34,8 @@
 /// Models: how a region is coloured (FBT §4.6), and what its sample is.
 ///   0 solid    the sample: premultiplied RGBA8, R in the low byte
 ///   1 corners  interpolated between the texel's four corners in Corners; the sample is 0
-///   2 patch    interpolated between four samples of its own, corners (0,0), (1,0), (0,1), (1,1): a record's index
+///   2 patch    interpolated between four samples of its own in the sample format, corners (0,0), (1,0), (0,1), (1,1):
+///              the index of their record, or of the first of two
 #pragma once
 
 #include <cstdint>
@@ -51,6 +53,14 @@ inline constexpr std::uint32_t kFbtEntryLastRun = 1u << 14, kFbtEntryLast = 1u <
 inline constexpr std::uint32_t kFbtDepthShift = 21, kFbtMaxDepth = 7;
 inline constexpr std::uint32_t kFbtRayPosX = 0, kFbtRayNegX = 1, kFbtRayPosY = 2, kFbtRayNegY = 3;
 
+/// How the samples of the models corners and patch are stored, premultiplied and sRGB-encoded. 16 bits a channel take
+/// two words: R low, G high; B low, A high. Other samples are RGBA8 (formats/fbt_samples.h).
+enum class FbtSampleFormat : std::uint32_t {
+    Rgba8 = 0,
+    Rgba16 = 1,  ///< 65535 is 1
+    Rgba16F = 2, ///< halves: finite, not negative, alpha at most 1; colours may exceed alpha, and 1
+};
+
 /// What the asset needs from a sampler; the shader prelude leaves the rest out.
 struct FbtTraits {
     std::uint32_t max_degree = 0;  ///< 0: no features at all
@@ -59,7 +69,7 @@ struct FbtTraits {
     bool corners = false;          ///< some region has the model corners
     bool patches = false;          ///< some region has the model patch
     bool shared = false;           ///< some run's points are shared
-    bool translucent = false;      ///< some sample has alpha < 255
+    bool translucent = false;      ///< some sample has alpha < 1
     std::uint32_t directions = 0;  ///< bit d set: ray direction d is used
     std::uint32_t max_entries = 0; ///< longest entry list of a band
     std::uint32_t max_bands = 0;   ///< most bands in a texel
@@ -70,6 +80,7 @@ struct FbtTraits {
 struct FbtTexture {
     std::uint32_t width = 0, height = 0; ///< texels, 1 … 16384
     FbtTraits traits;
+    FbtSampleFormat sample_format = FbtSampleFormat::Rgba8;
     std::vector<std::uint32_t> texels;
     std::vector<std::uint32_t> corners; ///< empty if no region has the model corners
     std::vector<std::uint32_t> records;
@@ -115,7 +126,7 @@ struct FbtRegion {
 /// Reference sampler, in double. (x,y) in texel space, clamped to the texture. FBT §5, step 3.
 FbtRegion fbt_locate(const FbtTexture& texture, double x, double y);
 
-/// Premultiplied sRGB, 0…1. FBT §5, step 4.
+/// Premultiplied sRGB, 0…1; R, G, B up to 65504 in the sample format Rgba16F. FBT §5, step 4.
 struct FbtColor {
     double r = 0, g = 0, b = 0, a = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 /// The CPU reference sampler (SPEC.md, "Sampling an FBT"): plain, slow, in double. The GLSL sampler must agree with it.
 #include "formats/fbt.h"
+#include "formats/fbt_samples.h"
 #include "formats/fbt_walk.h"
 
 #include <algorithm>
@@ -174,18 +175,23 @@ FbtRegion fbt_locate_local(const FbtTexture& texture, std::uint32_t i, std::uint
 }
 
 FbtColor fbt_shade(const FbtTexture& texture, const FbtRegion& region, double fx, double fy) {
+    const bool solid = region.model == kFbtModelSolid;
+    const FbtSampleFormat format = solid ? FbtSampleFormat::Rgba8 : texture.sample_format;
+    const std::size_t words = fbt_sample_words(format);
     std::array<double, 4> sum{};
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const std::uint32_t i = region.i + (corner & 1u), j = region.j + (corner >> 1);
-        const std::uint32_t sample =
-            region.model == kFbtModelPatch     ? texture.records[std::size_t{region.sample} * 4 + corner]
-            : region.model == kFbtModelCorners ? texture.corners[std::size_t{j} * (texture.width + 1) + i]
-                                               : region.sample;
+        const std::uint32_t* sample = solid ? &region.sample
+                                      : region.model == kFbtModelPatch
+                                          ? texture.records.data() + std::size_t{region.sample} * 4 + corner * words
+                                          : texture.corners.data() + (std::size_t{j} * (texture.width + 1) + i) * words;
+        const std::array<double, 4> channels = fbt_sample_channels(sample, format);
         const double weight = ((corner & 1u) ? fx : 1 - fx) * ((corner & 2u) ? fy : 1 - fy);
         for (std::size_t channel = 0; channel < 4; ++channel)
-            sum[channel] += weight * static_cast<double>(sample >> (8 * channel) & 0xffu);
+            sum[channel] += weight * channels[channel];
     }
-    return {sum[0] / 255, sum[1] / 255, sum[2] / 255, sum[3] / 255};
+    const double unit = fbt_sample_unit(format);
+    return {sum[0] / unit, sum[1] / unit, sum[2] / unit, sum[3] / unit};
 }
 
 FbtRegion fbt_locate(const FbtTexture& texture, double x, double y) {

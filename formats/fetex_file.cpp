@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "formats/fbt_mip.h"
+#include "formats/fbt_samples.h"
 #include "formats/validate.h"
 
 namespace fetex {
@@ -117,7 +118,7 @@ std::optional<Finding> read_metadata(Metadata& out, const ChunkView& chunk) {
 Words fbt_header_words(const FbtTexture& t) {
     Words words = {t.width,
                    t.height,
-                   0, // sample format: RGBA8, premultiplied, sRGB-encoded
+                   static_cast<std::uint32_t>(t.sample_format),
                    t.traits.max_degree,
                    t.traits.degrees,
                    (t.traits.bands ? kFlagBands : 0) | (t.traits.corners ? kFlagCorners : 0) |
@@ -177,7 +178,8 @@ std::optional<Finding> read_fbt_header(FbtTexture& out, std::uint32_t& records, 
     out.height = w[1];
     if (out.width < 1 || out.width > kFbtMaxSide || out.height < 1 || out.height > kFbtMaxSide)
         return bad(0, "width or height outside 1 … 16384");
-    if (w[2] != 0) return bad(2, "unknown sample format");
+    if (w[2] > static_cast<std::uint32_t>(FbtSampleFormat::Rgba16F)) return bad(2, "unknown sample format");
+    out.sample_format = static_cast<FbtSampleFormat>(w[2]);
     if ((w[5] & ~kFlagsKnown) != 0) return bad(5, "unknown flags");
     out.traits.max_degree = w[3];
     out.traits.degrees = w[4];
@@ -224,7 +226,8 @@ std::optional<Finding> read_fbt(FbtTexture& out, const FbtChunks& chunks) {
     if ((chunks.corners != nullptr) != out.traits.corners)
         return Finding{FindingCode::MissingChunk, chunks.header->offset,
                        "FBTC is there, and not needed, or the other way round"};
-    if (chunks.corners && wrong_length(*chunks.corners, (std::uint64_t{out.width} + 1) * (out.height + 1)))
+    const std::uint64_t corners = (std::uint64_t{out.width} + 1) * (out.height + 1);
+    if (chunks.corners && wrong_length(*chunks.corners, corners * fbt_sample_words(out.sample_format)))
         return Finding{FindingCode::FbtSizeMismatch, chunks.corners->offset, "FBTC: wrong length for the dimensions"};
     if (wrong_length(*chunks.records, std::uint64_t{records} * 4))
         return Finding{FindingCode::FbtSizeMismatch, chunks.records->offset, "FBTR: wrong length for the record count"};

@@ -49,6 +49,7 @@ enum class FindingCode : std::uint16_t {
     FbtNotPremultiplied = 1018, ///< a colour channel exceeds alpha
     FbtTraitsMismatch = 1019,   ///< traits don't describe the texture
     FbtModel = 1020,            ///< unknown model, or a shaded texel that is solid
+    FbtSampleValue = 1022,      ///< a half that is negative, infinite or no number, or an alpha above 1
     FbtNesting = 1021,          ///< depths that aren't those of features right after what lies inside them
 };
 

@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "formats/fbt_mip.h"
+#include "formats/fbt_samples.h"
 
 namespace fetex {
 namespace {
@@ -105,7 +106,10 @@ class Checker {
     /// Model and sample of a region; where: a texel or a record.
     void check_region(std::uint32_t model, std::uint32_t sample, bool in_records, std::uint64_t where);
     void check_patch(std::uint32_t address);
+    /// RGBA8.
     void check_sample(std::uint32_t sample, const char* part, std::uint64_t word);
+    /// In the texture's sample format; words: of the part, the sample's first.
+    void check_formatted(const std::vector<std::uint32_t>& words, const char* part, std::uint64_t word);
 
     const FbtTexture& texture_;
     std::size_t limit_;
@@ -133,7 +137,10 @@ bool Checker::check_sizes() {
         wrong = "width or height outside 1 … 16384";
     } else if (t.texels.size() != std::uint64_t{t.width} * t.height) {
         wrong = "the texel array hasn't width·height texels";
-    } else if (!t.corners.empty() && t.corners.size() != (std::uint64_t{t.width} + 1) * (t.height + 1)) {
+    } else if (t.sample_format > FbtSampleFormat::Rgba16F) {
+        wrong = "unknown sample format";
+    } else if (!t.corners.empty() &&
+               t.corners.size() != (std::uint64_t{t.width} + 1) * (t.height + 1) * fbt_sample_words(t.sample_format)) {
         wrong = "the corner array is neither empty nor of (width+1)·(height+1) samples";
     } else if (t.records.size() % 4 != 0 || t.records.size() / 4 > kFbtAddressMask) {
         wrong = "the record array isn't of whole records, or is beyond 30-bit addresses";
@@ -145,8 +152,8 @@ bool Checker::check_sizes() {
 }
 
 void Checker::check_corners() {
-    for (std::size_t k = 0; k < texture_.corners.size() && !full(); ++k)
-        check_sample(texture_.corners[k], "corners", k);
+    for (std::size_t k = 0; k < texture_.corners.size() && !full(); k += fbt_sample_words(texture_.sample_format))
+        check_formatted(texture_.corners, "corners", k);
 }
 
 void Checker::check_mips() {
@@ -334,7 +341,7 @@ void Checker::check_region(std::uint32_t model, std::uint32_t sample, bool in_re
         if (texture_.corners.empty()) found(FindingCode::FbtCorners, "the model corners in a texture that has none");
     } else if (model != kFbtModelPatch) {
         found(FindingCode::FbtModel, "unknown model");
-    } else if (sample >= record_count_) {
+    } else if (sample >= record_count_ || record_count_ - sample < fbt_patch_records(texture_.sample_format)) {
         found(FindingCode::FbtAddress, "a patch beyond the records");
     } else {
         traits_.patches = true;
@@ -346,7 +353,8 @@ void Checker::check_patch(std::uint32_t address) {
     if (patch_seen_[address]) return;
     patch_seen_[address] = true;
     for (std::uint32_t k = 0; k < 4; ++k)
-        check_sample(record(address)[k], "records", std::size_t{4} * address + k);
+        check_formatted(texture_.records, "records",
+                        std::size_t{4} * address + k * fbt_sample_words(texture_.sample_format));
 }
 
 void Checker::check_curve(std::size_t word, std::uint32_t degree) {
@@ -359,6 +367,26 @@ void Checker::check_curve(std::size_t word, std::uint32_t degree) {
             report(FindingCode::FbtNotMonotone, word, "records",
                    shift == 0 ? "piece turns back in x" : "piece turns back in y");
     }
+}
+
+void Checker::check_formatted(const std::vector<std::uint32_t>& words, const char* part, std::uint64_t word) {
+    const FbtSampleFormat format = texture_.sample_format;
+    const std::uint32_t* sample = words.data() + word;
+    if (format == FbtSampleFormat::Rgba8) return check_sample(*sample, part, word);
+    const std::uint32_t alpha = sample[1] >> 16;
+    const std::array<std::uint32_t, 3> color = {sample[0] & 0xffffu, sample[0] >> 16, sample[1] & 0xffffu};
+    traits_.translucent |= !fbt_sample_opaque(sample, format);
+    if (format == FbtSampleFormat::Rgba16) {
+        if (*std::ranges::max_element(color) > alpha)
+            report(FindingCode::FbtNotPremultiplied, word, part, "a colour channel exceeds alpha");
+        return;
+    }
+    // Halves without a sign order as integers do.
+    if (*std::ranges::max_element(color) >= kFbtHalfInfinity || alpha > kFbtHalfOne)
+        return report(FindingCode::FbtSampleValue, word, part,
+                      "a half that is negative, infinite or no number, or an alpha above 1");
+    if (alpha == 0 && (sample[0] != 0 || color[2] != 0))
+        report(FindingCode::FbtNotPremultiplied, word, part, "a colour where alpha is 0");
 }
 
 void Checker::check_sample(std::uint32_t sample, const char* part, std::uint64_t word) {

@@ -50,8 +50,12 @@ std::uint32_t append_directory(Words& records, const std::vector<std::pair<std::
 }
 
 std::uint32_t append_patch(Words& records, std::uint32_t c00, std::uint32_t c10, std::uint32_t c01, std::uint32_t c11) {
+    return append_patch(records, {c00, c10, c01, c11});
+}
+
+std::uint32_t append_patch(Words& records, const std::vector<std::uint32_t>& samples) {
     const std::uint32_t first = next_record(records);
-    append(records, {c00, c10, c01, c11});
+    records.insert(records.end(), samples.begin(), samples.end());
     return first;
 }
 

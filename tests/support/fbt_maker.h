@@ -32,7 +32,8 @@ std::uint32_t append_list(std::vector<std::uint32_t>& records, const std::vector
 std::uint32_t append_directory(std::vector<std::uint32_t>& records,
                                const std::vector<std::pair<std::uint32_t, std::uint32_t>>& bands);
 
-/// Appends four samples.
+/// Appends four samples, in words of any sample format.
+std::uint32_t append_patch(std::vector<std::uint32_t>& records, const std::vector<std::uint32_t>& samples);
 std::uint32_t append_patch(std::vector<std::uint32_t>& records, std::uint32_t c00, std::uint32_t c10, std::uint32_t c01,
                            std::uint32_t c11);
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "formats/fbt_mip.h"
+#include "formats/fbt_samples.h"
 #include "formats/validate.h"
 #include "tests/support/fbt_maker.h"
 
@@ -28,6 +29,8 @@ class Generator {
     std::uint32_t one_of(std::uint32_t bits);
 
     std::uint32_t color();
+    double wide_channel(double most);
+    void append_sample(std::vector<std::uint32_t>& words);
     MadeRegion region();
     double coordinate();
     double control(double a, double b, double u) { return a + (b - a) * u; }
@@ -56,14 +59,32 @@ std::uint32_t Generator::color() {
     return below(alpha + 1) | below(alpha + 1) << 8 | below(alpha + 1) << 16 | alpha << 24;
 }
 
+/// Often 0 or all there can be, now and then below the smallest normal half.
+double Generator::wide_channel(double most) {
+    if (chance(10)) return 0;
+    if (chance(10)) return most;
+    return most * (chance(10) ? 0x1p-15 : 1.0) * unit();
+}
+
+/// A sample in the texture's format.
+void Generator::append_sample(std::vector<std::uint32_t>& words) {
+    const fetex::FbtSampleFormat format = options_.sample_format;
+    if (format == fetex::FbtSampleFormat::Rgba8) return words.push_back(color());
+    const double alpha = options_.translucent && chance(40) ? wide_channel(1) : 1.0;
+    const double most = format == fetex::FbtSampleFormat::Rgba16F ? 4.0 : alpha;
+    const double r = wide_channel(most), g = wide_channel(most), b = wide_channel(most);
+    const auto packed = fetex::fbt_pack_sample({r, g, b, alpha}, format);
+    words.insert(words.end(), packed.begin(), packed.end());
+}
+
 MadeRegion Generator::region() {
     const std::uint32_t choice = below(10);
     if (options_.corners && choice < 3) return {fetex::kFbtModelCorners, 0};
     if (!options_.patches || choice < 6) return {fetex::kFbtModelSolid, color()};
-    std::array<std::uint32_t, 4> c{};
-    for (std::uint32_t& sample : c)
-        sample = color();
-    return {fetex::kFbtModelPatch, append_patch(texture_.records, c[0], c[1], c[2], c[3])};
+    std::vector<std::uint32_t> samples;
+    for (int k = 0; k < 4; ++k)
+        append_sample(samples);
+    return {fetex::kFbtModelPatch, append_patch(texture_.records, samples)};
 }
 
 /// Often inside the texel, often on a coarse grid, where rays meet end points exactly, or on a side of the texel.
@@ -170,9 +191,10 @@ std::uint32_t Generator::texel() {
 FbtTexture Generator::make() {
     texture_.width = options_.width;
     texture_.height = options_.height;
+    texture_.sample_format = options_.sample_format;
     if (options_.corners) {
         for (std::uint32_t k = 0; k < (options_.width + 1) * (options_.height + 1); ++k)
-            texture_.corners.push_back(color());
+            append_sample(texture_.corners);
     }
     for (std::uint32_t k = 0; k < options_.width * options_.height; ++k)
         texture_.texels.push_back(texel());

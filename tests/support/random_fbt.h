@@ -18,6 +18,8 @@ struct RandomFbtOptions {
     std::uint32_t max_features = 4; ///< in a band
     std::uint32_t max_pieces = 6;   ///< in a run
     bool mips = false;              ///< a chain of random samples
+    /// Of corners and patches; halves are colours up to 4.
+    fetex::FbtSampleFormat sample_format = fetex::FbtSampleFormat::Rgba8;
 };
 
 fetex::FbtTexture random_fbt(std::uint64_t seed, const RandomFbtOptions& options = {});

@@ -305,7 +305,7 @@ TEST(Reader, refusesHostileFbtHeaders) {
         EXPECT_EQ(with_word(0, bad), FindingCode::BadFbtHeader);
         EXPECT_EQ(with_word(1, bad), FindingCode::BadFbtHeader);
     }
-    EXPECT_EQ(with_word(2, 1), FindingCode::BadFbtHeader);
+    EXPECT_EQ(with_word(2, 3), FindingCode::BadFbtHeader);
     EXPECT_EQ(with_word(5, 32), FindingCode::BadFbtHeader);
     EXPECT_EQ(with_word(15, 1), FindingCode::BadFbtHeader);
     EXPECT_EQ(with_word(0, 16384), FindingCode::FbtSizeMismatch);
