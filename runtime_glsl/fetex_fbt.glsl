@@ -5,14 +5,19 @@
 //   vec4 fetexFbtSampleTexel(ivec2 base, vec2 local)    deep zoom: integer texel and offset in it, [0,1)^2; at the far
 //                                                       border and beyond 1 - 2^-16
 //
-// Both give premultiplied, sRGB-encoded RGBA. fp32 uv is good to about 1000 pixels per texel; beyond that split the
+// Both give premultiplied, sRGB-encoded RGBA; in the sample format 2 colours may exceed 1. fp32 uv is good to about 1000 pixels per texel; beyond that split the
 // coordinate in integers or doubles and call the second.
 //
 // Needs a prelude (fetex_prelude_*.glsl) and these textures:
 //   fetexFbtTexels   R32UI 2D, width x height, the chunk FBTT
 //   fetexFbtRecords  RGBA32UI 2D, 2048 wide (or less, if all fits in one row), the chunk FBTR padded to whole rows;
 //                    with FETEX_TEXTURE_BUFFER a RGBA32UI texture buffer of the same bytes
-//   fetexFbtCorners  R32UI 2D, (width+1) x (height+1), the chunk FBTC; only with FETEX_FBT_CORNERS
+//   fetexFbtCorners  R32UI 2D, (width+1) x (height+1), the chunk FBTC; only with FETEX_FBT_CORNERS. RG32UI in the sample
+//                    formats 1 and 2
+// Must be what the asset's header says, if that isn't 0:
+#ifndef FETEX_FBT_SAMPLES
+#define FETEX_FBT_SAMPLES 0 // sample format of corners and patches: 0 RGBA8, 1 RGBA16, 2 halves
+#endif
 // Specialisation, from the asset's header; each default leaves the feature in:
 #ifndef FETEX_FBT_FEATURES
 #define FETEX_FBT_FEATURES 1 // 0: every texel is of one region
@@ -57,6 +62,27 @@ vec4 fetexFbtColor(uint rgba8) {
     return vec4(vec3(channels) * (1.0 / 255.0), 1.0);
 #endif
 }
+
+#if FETEX_FBT_SAMPLES == 2
+// A half without a sign, exact; GLSL 3.30 has no unpackHalf2x16.
+float fetexFbtChannel(uint bits) {
+    return bits < 0x400u ? float(bits) * (1.0 / 16777216.0) : uintBitsToFloat((bits << 13u) + 0x38000000u);
+}
+#elif FETEX_FBT_SAMPLES == 1
+float fetexFbtChannel(uint bits) { return float(bits) * (1.0 / 65535.0); }
+#endif
+
+#if FETEX_FBT_SAMPLES != 0
+// A sample of two words.
+vec4 fetexFbtWideColor(uvec2 words) {
+    vec3 color = vec3(fetexFbtChannel(words.x & 0xffffu), fetexFbtChannel(words.x >> 16u), fetexFbtChannel(words.y & 0xffffu));
+#if FETEX_FBT_TRANSLUCENT
+    return vec4(color, fetexFbtChannel(words.y >> 16u));
+#else
+    return vec4(color, 1.0);
+#endif
+}
+#endif
 
 #if FETEX_FBT_FEATURES || FETEX_FBT_PATCHES
 #ifdef FETEX_TEXTURE_BUFFER
@@ -276,6 +302,25 @@ uvec2 fetexFbtFindRegion(uint index, vec2 local) {
 vec4 fetexFbtShade(ivec2 base, vec2 local, uvec2 region) {
 #if FETEX_FBT_CORNERS || FETEX_FBT_PATCHES
     if (region.x != 0u) {
+#if FETEX_FBT_SAMPLES != 0
+        uvec4 above = uvec4(0u), below = uvec4(0u); // two samples each
+#if FETEX_FBT_PATCHES
+        if (region.x == 2u) {
+            above = fetexFbtRecord(region.y);
+            below = fetexFbtRecord(region.y + 1u);
+        }
+#endif
+#if FETEX_FBT_CORNERS
+        if (region.x == 1u) {
+            above.xy = texelFetch(fetexFbtCorners, base, 0).xy;
+            above.zw = texelFetch(fetexFbtCorners, base + ivec2(1, 0), 0).xy;
+            below.xy = texelFetch(fetexFbtCorners, base + ivec2(0, 1), 0).xy;
+            below.zw = texelFetch(fetexFbtCorners, base + ivec2(1, 1), 0).xy;
+        }
+#endif
+        vec4 upper = mix(fetexFbtWideColor(above.xy), fetexFbtWideColor(above.zw), local.x);
+        vec4 lower = mix(fetexFbtWideColor(below.xy), fetexFbtWideColor(below.zw), local.x);
+#else
         uvec4 samples = uvec4(0u);
 #if FETEX_FBT_PATCHES
         if (region.x == 2u) samples = fetexFbtRecord(region.y);
@@ -290,6 +335,7 @@ vec4 fetexFbtShade(ivec2 base, vec2 local, uvec2 region) {
 #endif
         vec4 upper = mix(fetexFbtColor(samples.x), fetexFbtColor(samples.y), local.x);
         vec4 lower = mix(fetexFbtColor(samples.z), fetexFbtColor(samples.w), local.x);
+#endif
         return mix(upper, lower, local.y);
     }
 #endif

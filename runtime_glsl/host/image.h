@@ -36,7 +36,7 @@ struct RenderSize {
 inline constexpr std::uint32_t kMaxImageSide = 32768, kMaxSupersample = 16;
 inline constexpr std::uint64_t kMaxImagePixels = 1u << 26; ///< 1 GiB of floats
 
-/// Premultiplied sRGB RGBA, 0…1, row-major, top row first.
+/// Premultiplied sRGB RGBA, 0…1 (of samples in halves colours up to 65504), row-major, top row first.
 struct Image {
     std::uint32_t width = 0, height = 0;
     std::vector<float> rgba;

@@ -187,7 +187,7 @@ void Renderer::State::upload_mips(const FbtTexture& texture) {
 RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     if (auto bad = check_limits(texture)) return bad;
     FbtTexture traits;
-    traits.traits = texture.traits;
+    traits.traits = texture.traits, traits.sample_format = texture.sample_format;
     if (!texture.mips.empty()) traits.mips = {0};
     const auto plain = build_fbt(traits, Filter::Point, false);
     if (!plain) return plain.error(); // what was uploaded before stays
@@ -199,8 +199,10 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     texel_texture = make_texture(gl(), kTexelUnit, GL_R32UI, texture.width, texture.height, GL_RED_INTEGER,
                                  GL_UNSIGNED_INT, texture.texels.data());
     if (!texture.corners.empty()) {
-        corner_texture = make_texture(gl(), kCornerUnit, GL_R32UI, texture.width + 1, texture.height + 1,
-                                      GL_RED_INTEGER, GL_UNSIGNED_INT, texture.corners.data());
+        const bool wide = texture.sample_format != FbtSampleFormat::Rgba8;
+        corner_texture =
+            make_texture(gl(), kCornerUnit, wide ? GL_RG32UI : GL_R32UI, texture.width + 1, texture.height + 1,
+                         wide ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT, texture.corners.data());
     }
     if (options.texture_buffer) {
         upload_record_buffer(texture);

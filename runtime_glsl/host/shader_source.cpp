@@ -33,7 +33,8 @@ std::string real(double value) {
 
 /// The sampler of the features alone.
 std::string features_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
-    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits) + file_text("fetex_fbt.glsl") +
+    return shader_prelude(dialect, texture_buffer) + fbt_specialisation(texture.traits, texture.sample_format) +
+           file_text("fetex_fbt.glsl") +
            (filter == Filter::Point
                 ? ""
                 : define("FETEX_FBT_AREA_EXACT", filter == Filter::ExactArea) + file_text("fetex_fbt_area.glsl"));
@@ -71,8 +72,9 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer) {
     return text;
 }
 
-std::string fbt_specialisation(const FbtTraits& traits) {
-    return define("FETEX_FBT_FEATURES", traits.max_entries > 0) + define("FETEX_FBT_DEGREES", traits.degrees) +
+std::string fbt_specialisation(const FbtTraits& traits, FbtSampleFormat format) {
+    return define("FETEX_FBT_SAMPLES", static_cast<std::uint32_t>(format)) +
+           define("FETEX_FBT_FEATURES", traits.max_entries > 0) + define("FETEX_FBT_DEGREES", traits.degrees) +
            define("FETEX_FBT_BANDS", traits.bands) + define("FETEX_FBT_CORNERS", traits.corners) +
            define("FETEX_FBT_PATCHES", traits.patches) + define("FETEX_FBT_SHARED", traits.shared) +
            define("FETEX_FBT_TRANSLUCENT", traits.translucent) + define("FETEX_FBT_DIRECTIONS", traits.directions) +

@@ -23,12 +23,14 @@ const char* dialect_name(Dialect dialect);
 /// buffer; not in Essl300, which has none.
 std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 
-/// The macros that leave out of the sampler what an asset doesn't need. "" instead leaves everything in.
-std::string fbt_specialisation(const FbtTraits& traits);
+/// The sample format, and the macros that leave out of the sampler what an asset doesn't need. "" instead leaves
+/// everything in, for RGBA8.
+std::string fbt_specialisation(const FbtTraits& traits, FbtSampleFormat format = FbtSampleFormat::Rgba8);
 
 /// Prelude, specialisation, fetex_fbt.glsl and, to be followed by a fragment shader: for area sampling
 /// fetex_fbt_area.glsl; if the texture has a mip chain, that and fetex_fbt_mip.glsl, whose level 0 then is exact unless
-/// the filter is Area. Only the traits of the texture are looked at, and whether it has a chain.
+/// the filter is Area. Only the traits and the sample format of the texture are looked at,
+/// and whether it has a chain.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                Filter filter = Filter::Point);
 

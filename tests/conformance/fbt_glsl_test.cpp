@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/fbt_samples.h"
 #include "formats/validate.h"
 #include "tests/conformance/compare_renderers.h"
 #include "tests/support/fbt_maker.h"
@@ -24,6 +25,10 @@ constexpr double kMagnifications[] = {1, 8, 64, 512};
 
 /// Edge pixels may go either way, but in random textures only about perimeter·hair of the area is edge.
 constexpr double kLargestEdgeShare = 1e-3;
+
+/// Largest difference in wide samples of up to 4: eight bits would leave hundred times as much. A place in a texel is
+/// good to 2^-19 (20 texels in fp32, fixed point beyond), over which such a gradient changes by 4·2^-18.
+constexpr double kWideStep = 4 * 0x1p-18;
 
 std::string describe(const RendererOptions& options) {
     return std::string(fetex::backend_name(options.backend)) + " " + fetex::dialect_name(options.dialect) +
@@ -100,6 +105,48 @@ TEST_P(Conformance, equalsTheReferenceWhenSpecialised) {
     }
 }
 
+/// Corners and patches of two words a sample; some textures translucent, some opaque, some with only one of both.
+TEST_P(Conformance, equalsTheReferenceInWideSamples) {
+    for (const fetex::FbtSampleFormat format : {fetex::FbtSampleFormat::Rgba16, fetex::FbtSampleFormat::Rgba16F}) {
+        for (std::uint32_t trait = 0; trait < 4; ++trait) {
+            const FbtTexture texture = random_fbt(300 + trait, {.width = 20,
+                                                                .height = 13,
+                                                                .corners = trait != 1,
+                                                                .patches = trait != 2,
+                                                                .translucent = trait != 3,
+                                                                .sample_format = format});
+            ASSERT_TRUE(fetex::validate_fbt(texture).empty()) << fetex::validate_fbt(texture)[0].message;
+            for (const double magnification : {1.0, 8.0, 512.0})
+                expect_equal(texture, magnification, 128, trait);
+        }
+    }
+    EXPECT_LE(total_.largest, kWideStep);
+}
+
+/// All halves that may be a colour, each at a corner where a pixel's centre lies: exact, subnormal numbers too.
+TEST_P(Conformance, decodesEveryHalf) {
+    constexpr std::uint32_t columns = 256, rows = fetex::kFbtHalfInfinity / columns;
+    FbtTexture texture;
+    texture.sample_format = fetex::FbtSampleFormat::Rgba16F;
+    texture.width = columns - 1, texture.height = rows - 1;
+    texture.texels.assign(std::size_t{texture.width} * texture.height, shaded_texel({fetex::kFbtModelCorners, 0}));
+    for (std::uint32_t half = 0; half < columns * rows; ++half)
+        texture.corners.insert(texture.corners.end(), {half | half << 16, half | fetex::kFbtHalfOne << 16});
+    texture.traits = fetex::fbt_traits(texture);
+    ASSERT_TRUE(fetex::validate_fbt(texture).empty()) << fetex::validate_fbt(texture)[0].message;
+    ASSERT_FALSE(renderer_->upload(texture).has_value());
+    const double w = texture.width, h = texture.height;
+    const auto drawn = renderer_->render({-0.5 / w, -0.5 / h, columns / w, rows / h}, {columns, rows});
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    std::size_t wrong = 0;
+    for (std::uint32_t half = 0; half < columns * rows; ++half) {
+        const double wanted = fetex::fbt_half_value(half);
+        for (std::size_t k = 0; k < 3; ++k)
+            wrong += static_cast<double>(drawn.value().rgba[4 * std::size_t{half} + k]) != wanted;
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
 /// fp32 has 10 bits left for the place in a texel at 16384; fixed point has 32.
 TEST_P(Conformance, staysSharpFarFromTheOrigin) {
     const FbtTexture texture = random_fbt(7, {.width = 16384, .height = 3, .corners = false});
@@ -130,10 +177,12 @@ TEST_P(Conformance, supersamplesAsTheReferenceDoes) {
 /// Random chains cross and end anywhere: what area sampling makes of them has no meaning, but is the same. A pixel may
 /// differ where two texels have equal parts of it, or a random chain's area changes its sign.
 TEST_P(Conformance, areaSamplesAsTheReferenceDoes) {
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         RandomFbtOptions options{.width = 12, .height = 9};
         if (seed == 2) options.max_features = 12;
         if (seed == 3) options.degrees = 2, options.corners = options.patches = options.bands = false;
+        if (seed >= 4)
+            options.sample_format = seed == 4 ? fetex::FbtSampleFormat::Rgba16 : fetex::FbtSampleFormat::Rgba16F;
         const FbtTexture texture = random_fbt(200 + seed, options);
         ASSERT_FALSE(renderer_->upload(texture).has_value());
         for (const fetex::Filter filter : {fetex::Filter::Area, fetex::Filter::ExactArea}) {

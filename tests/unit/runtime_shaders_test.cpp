@@ -59,8 +59,8 @@ FbtTexture needing(std::uint32_t degrees, std::uint32_t switches, std::uint32_t 
     return t;
 }
 
-/// What an asset can need: all sets of degrees with bands, corners, alpha, patches, shared points; and all kinds of ray
-/// sets.
+/// What an asset can need: all sets of degrees with bands, corners, alpha, patches, shared points; all kinds of ray
+/// sets; and all formats of samples.
 std::vector<FbtTexture> all_specialisations() {
     std::vector<FbtTexture> all;
     for (std::uint32_t degrees = 0; degrees < 16; degrees += 2)
@@ -68,6 +68,14 @@ std::vector<FbtTexture> all_specialisations() {
             all.push_back(needing(degrees, switches, 15));
     for (const std::uint32_t directions : {1u, 2u, 4u, 8u, 3u, 12u, 5u, 10u})
         all.push_back(needing(14, 31, directions));
+    for (const FbtSampleFormat format : {FbtSampleFormat::Rgba16, FbtSampleFormat::Rgba16F}) {
+        for (const std::uint32_t degrees : {0u, 14u}) {
+            for (std::uint32_t switches = 0; switches < 32; ++switches) {
+                all.push_back(needing(degrees, switches, 15));
+                all.back().sample_format = format;
+            }
+        }
+    }
     return all;
 }
 
@@ -127,8 +135,10 @@ TEST_F(Shaders, compileWithNothingSpecialised) {
         text << main_text;
         ASSERT_GT(text.str().size(), 5000u);
         const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        EXPECT_EQ(run(text.str(), "plain.frag", tool), "");
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null" : "glslangValidator";
+        EXPECT_EQ(run(text.str(), "plain.frag", tool + " @"), "");
+        for (const char* format : {"1", "2"})
+            EXPECT_EQ(run(text.str(), "wide.frag", tool + " -DFETEX_FBT_SAMPLES=" + format + " @"), "");
     }
 }
 
@@ -165,6 +175,9 @@ TEST_F(Shaders, leaveOutWhatTheAssetDoesNotNeed) {
     const std::string text = fbt_specialisation(lines.traits);
     EXPECT_NE(text.find("#define FETEX_FBT_DEGREES 2\n"), std::string::npos);
     EXPECT_NE(text.find("#define FETEX_FBT_BANDS 0\n"), std::string::npos);
+    EXPECT_NE(text.find("#define FETEX_FBT_SAMPLES 0\n"), std::string::npos);
+    EXPECT_NE(fbt_specialisation({}, FbtSampleFormat::Rgba16F).find("#define FETEX_FBT_SAMPLES 2\n"),
+              std::string::npos);
     EXPECT_EQ(fbt_library_source(Dialect::Glsl330, lines).find("fetexFbtSampleMip"), std::string::npos);
     FbtTexture chain = lines;
     chain.mips = {0};
