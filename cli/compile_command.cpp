@@ -36,6 +36,7 @@ struct CompileCommandOptions {
     unsigned threads = 0;
     std::vector<std::string> no_skip;
     bool mips = false;
+    std::string samples = "8";
     bool quiet = false;
 };
 
@@ -57,11 +58,17 @@ GridSize grid_of(const SizeValue& size, const Extent& extent) {
     return size.longer != 0 ? grid_for(extent, size.longer) : GridSize{size.width, size.height};
 }
 
+fetex::FbtSampleFormat sample_format(const CompileCommandOptions& options) {
+    if (options.samples == "16") return fetex::FbtSampleFormat::Rgba16;
+    return options.samples == "float" ? fetex::FbtSampleFormat::Rgba16F : fetex::FbtSampleFormat::Rgba8;
+}
+
 /// What the file says about its own making. Nothing that differs between two runs or two folders.
 fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOptions& options,
                              const fetex::FbtTexture& fbt) {
     std::string made_with = fmt::format("repr=fbt size={}x{}", fbt.width, fbt.height);
     if (options.mips) made_with += " mips";
+    if (options.samples != "8") made_with += " samples=" + options.samples;
     if (options.scene.raster_size != 0) made_with += fmt::format(" raster-size={}", options.scene.raster_size);
     return {{"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
 }
@@ -72,7 +79,8 @@ struct Compiled {
 };
 
 CompileOptions compile_options(const CompileCommandOptions& options, const Extent& extent) {
-    return {grid_of(options.size, extent), options.threads, skip_rules_without(options.no_skip), options.mips};
+    return {grid_of(options.size, extent), options.threads, skip_rules_without(options.no_skip), options.mips,
+            sample_format(options)};
 }
 
 fetex::Metadata metadata_for(const LoadedImage& loaded, const CompileCommandOptions& options,
@@ -80,6 +88,7 @@ fetex::Metadata metadata_for(const LoadedImage& loaded, const CompileCommandOpti
     const ImageOptions& o = options.image;
     std::string made_with = fmt::format("repr=fbt size={}x{} invalidate={}", fbt.width, fbt.height, o.invalidate);
     if (options.mips) made_with += " mips";
+    if (options.samples != "8") made_with += " samples=" + options.samples;
     if (o.trace) made_with += fmt::format(" trace-contrast={} trace-speck={}", o.tracing.contrast, o.tracing.speck);
     fetex::Metadata metadata{
         {"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
@@ -91,7 +100,9 @@ fetex::Metadata metadata_for(const LoadedImage& loaded, const CompileCommandOpti
 Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOptions& options,
                                         std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
-    auto loaded = load_image(options.image, options.scene, options.threads, diagnostics);
+    ImageOptions image = options.image;
+    image.bright = sample_format(options) == fetex::FbtSampleFormat::Rgba16F;
+    auto loaded = load_image(image, options.scene, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const FeaturedImage& picture = loaded.value().picture;
     CompileOptions how = compile_options(options, picture.features.extent);
@@ -266,6 +277,11 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("N");
     app->add_flag("--mips,!--no-mips", options->mips,
                   "A mip chain too, for views of more than a texel a pixel; without (default) they need supersampling");
+    app->add_option("--samples", options->samples,
+                    "Gradients' colours in 8 (default) or 16 bits a channel, or as 16-bit floats, which of an --image "
+                    "keep what is brighter than white")
+        ->check(CLI::IsMember({"8", "16", "float"}))
+        ->type_name("FORMAT");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");

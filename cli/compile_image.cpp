@@ -12,6 +12,7 @@
 #include "cli/png_module.h"
 #include "compiler/diagnostics.h"
 #include "compiler/svg/svg.h"
+#include "formats/fbt_samples.h"
 
 namespace fetexc::cli {
 namespace {
@@ -32,7 +33,7 @@ void receive(void* context, const void* bytes, std::uint32_t width, std::uint32_
     }
     to.image.width = width, to.image.height = height, to.clipped = clipped;
     to.image.rgba.resize(std::size_t{4} * width * height);
-    std::memcpy(to.image.rgba.data(), bytes, to.image.rgba.size() * sizeof(std::uint16_t));
+    std::memcpy(to.image.rgba.data(), bytes, to.image.rgba.size() * sizeof(float));
 }
 
 Error failed(ImageOutcome outcome, const std::string& why) {
@@ -79,16 +80,17 @@ void append(FeatureCurves& to, const FeatureCurves& from) {
 
 } // namespace
 
-Result<RasterImage> read_image(const std::string& path, std::vector<Diagnostic>& diagnostics) {
+Result<RasterImage> read_image(const std::string& path, bool bright, std::vector<Diagnostic>& diagnostics) {
     const auto decode = module_symbol(kDecodeImage);
     if (!decode) return decode.error();
     Received received;
-    const ImageOutcome outcome =
-        reinterpret_cast<DecodeImage>(decode.value())(path.c_str(), kMaxImageSide, kMaxImagePixels, receive, &received);
+    const double most = bright ? fetex::kFbtMaxHalf : 1;
+    const ImageOutcome outcome = reinterpret_cast<DecodeImage>(decode.value())(
+        path.c_str(), kMaxImageSide, kMaxImagePixels, most, receive, &received);
     if (outcome != ImageOutcome::Read) return failed(outcome, received.failure);
     if (received.clipped > 0)
         diagnostics.push_back({Severity::Warning, diag::kImageClipped,
-                               fmt::format("{} pixels beyond 0 to 1 clipped", received.clipped), ""});
+                               fmt::format("{} pixels beyond 0 to {} clipped", received.clipped, most), ""});
     return std::move(received.image);
 }
 
@@ -100,7 +102,7 @@ Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& 
         if (!bytes) return bytes.error();
         out.source_hash = hash_of(bytes.value());
     }
-    auto image = read_image(options.image, diagnostics);
+    auto image = read_image(options.image, options.bright, diagnostics);
     if (!image) return image.error();
     RasterImage& pixels = out.picture.image = std::move(image).value();
     FeatureCurves features{static_cast<double>(pixels.width), static_cast<double>(pixels.height), {}};

@@ -19,6 +19,7 @@ struct ImageOptions {
     bool trace = false;
     TraceOptions tracing;
     double invalidate = 1; ///< pixels
+    bool bright = false;   ///< colours above 1 stay as they are, for samples in halves
 };
 
 struct LoadedImage {
@@ -32,8 +33,9 @@ struct LoadedImage {
 Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& scene, unsigned threads,
                                std::vector<Diagnostic>& diagnostics);
 
-/// An image of any kind that OpenImageIO reads. Errors 1101 … 1103, 8052.
-Result<RasterImage> read_image(const std::string& path, std::vector<Diagnostic>& diagnostics);
+/// An image of any kind that OpenImageIO reads. bright: colours up to 65504, encoded, else up to 1. Errors 1101 … 1103,
+/// 8052.
+Result<RasterImage> read_image(const std::string& path, bool bright, std::vector<Diagnostic>& diagnostics);
 
 /// --image, --features, --trace, --trace-contrast, --trace-speck, --invalidate. Returns --image.
 CLI::Option* add_image_options(CLI::App& app, ImageOptions& options);

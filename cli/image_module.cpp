@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,22 +49,21 @@ bool is_linear(const OIIO::ImageSpec& spec) {
     return space == "linear" || space.rfind("lin_", 0) == 0 || space == "scene_linear" || space == "raw";
 }
 
+/// Above 1 the same formula goes on.
 double encode_srgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
-/// Straight, in place; whether a channel had to be clipped.
-bool clip(double& c) {
+/// In place, to 0 … most; whether the channel had to be clipped.
+bool clip(double& c, double most) {
     constexpr double tolerance = 1e-4; // what resampling in linear light leaves of 0 and 1
-    const bool beyond = !(c >= -tolerance && c <= 1 + tolerance);
-    c = std::isnan(c) ? 0 : std::clamp(c, 0.0, 1.0);
+    const bool beyond = !(c >= -tolerance && c <= most + tolerance);
+    c = std::isnan(c) ? 0 : std::clamp(c, 0.0, most);
     return beyond;
 }
 
-std::uint16_t to_word(double c) { return static_cast<std::uint16_t>(std::lround(c * 65535)); }
-
 class ImageReader {
   public:
-    ImageReader(const char* path, std::uint32_t max_side, std::uint64_t max_pixels)
-        : path_(path), max_side_(max_side), max_pixels_(max_pixels) {}
+    ImageReader(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most)
+        : path_(path), max_side_(max_side), max_pixels_(max_pixels), most_(most) {}
 
     std::optional<Failure> read() {
         OIIO::ImageSpec wish;
@@ -83,7 +83,7 @@ class ImageReader {
     }
 
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint16_t> rgba;
+    std::vector<float> rgba;
     std::uint64_t clipped = 0;
 
   private:
@@ -128,18 +128,24 @@ class ImageReader {
         }
     }
 
-    void convert_pixel(const float* from, const ChannelPlan& plan, bool straight, bool linear, std::uint16_t* to) {
+    void convert_pixel(const float* from, const ChannelPlan& plan, bool straight, bool linear, float* to) {
         double alpha = plan.a >= 0 ? static_cast<double>(from[plan.a]) : 1;
-        bool beyond = clip(alpha);
+        bool beyond = clip(alpha, 1);
         int k = 0;
         for (const int channel : {plan.r, plan.g, plan.b}) {
             double c = static_cast<double>(from[channel]);
             if (!straight && plan.a >= 0) c = alpha > 0 ? c / alpha : 0;
-            beyond = clip(c) || beyond;
-            to[k++] = to_word((linear ? encode_srgb(c) : c) * alpha);
+            beyond = clip(c, most_ > 1 ? std::numeric_limits<double>::infinity() : 1) || beyond;
+            if (linear) c = encode_srgb(c);
+            if (most_ > 1) beyond = clip(c, most_) || beyond;
+            to[k++] = to_value(c * alpha);
         }
-        to[3] = to_word(alpha);
+        to[3] = to_value(alpha);
         clipped += beyond ? 1 : 0;
+    }
+
+    [[nodiscard]] float to_value(double c) const {
+        return static_cast<float>(most_ > 1 ? c * 65535 : static_cast<double>(std::lround(c * 65535)));
     }
 
     /// EXIF orientation: 5 to 8 swap the sides.
@@ -147,7 +153,7 @@ class ImageReader {
         if (orientation < 2 || orientation > 8) return;
         const std::uint32_t w = width, h = height;
         if (orientation >= 5) std::swap(width, height);
-        std::vector<std::uint16_t> out(rgba.size());
+        std::vector<float> out(rgba.size());
         for (std::uint32_t y = 0; y < height; ++y) {
             for (std::uint32_t x = 0; x < width; ++x) {
                 std::uint32_t sx = orientation >= 5 ? y : x, sy = orientation >= 5 ? x : y;
@@ -163,15 +169,16 @@ class ImageReader {
     std::string path_;
     std::uint32_t max_side_;
     std::uint64_t max_pixels_;
+    double most_;
     OIIO::ImageSpec spec_;
 };
 
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) ImageOutcome
-fetexc_decode_image(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, fetexc::cli::ImageSink sink,
-                    void* context) {
-    ImageReader reader(path, max_side, max_pixels);
+fetexc_decode_image(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most,
+                    fetexc::cli::ImageSink sink, void* context) {
+    ImageReader reader(path, max_side, max_pixels, most);
     std::optional<Failure> failure;
     try {
         failure = reader.read();

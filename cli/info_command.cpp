@@ -111,6 +111,33 @@ Json traits_json(const fetex::FbtTraits& traits) {
             {"maxDepth", traits.max_depth}};
 }
 
+/// As `compile --samples` names it.
+const char* sample_format_name(fetex::FbtSampleFormat format) {
+    switch (format) {
+    case fetex::FbtSampleFormat::Rgba8:
+        return "8";
+    case fetex::FbtSampleFormat::Rgba16:
+        return "16";
+    case fetex::FbtSampleFormat::Rgba16F:
+        return "float";
+    }
+    return "";
+}
+
+/// Of what has samples in a format at all.
+std::string gradients_text(const fetex::FbtTexture& fbt) {
+    if (!fbt.traits.corners && !fbt.traits.patches) return "constant colours";
+    switch (fbt.sample_format) {
+    case fetex::FbtSampleFormat::Rgba8:
+        return "gradients";
+    case fetex::FbtSampleFormat::Rgba16:
+        return "gradients in 16 bits";
+    case fetex::FbtSampleFormat::Rgba16F:
+        return "gradients in 16-bit floats";
+    }
+    return "";
+}
+
 std::uint32_t mip_levels(const fetex::FbtTexture& fbt) {
     return fbt.mips.empty() ? 0 : fetex::fbt_mip_levels(fbt.width, fbt.height);
 }
@@ -125,6 +152,7 @@ Json fbt_json(const fetex::FbtTexture& fbt) {
             {"recordBytes", 4 * fbt.records.size()},
             {"mipBytes", 4 * fbt.mips.size()},
             {"mipLevels", mip_levels(fbt)},
+            {"samples", sample_format_name(fbt.sample_format)},
             {"texels", {{"empty", kinds[0]}, {"single", kinds[1]}, {"banded", kinds[2]}}},
             {"traits", traits_json(fbt.traits)}};
 }
@@ -145,8 +173,7 @@ void print_fbt(const fetex::FbtTexture& fbt) {
     fmt::print("  curves      {}{}{}{}\n", t.degrees == 0 ? "none" : "", t.degrees & 2 ? "lines " : "",
                t.degrees & 4 ? "quadratics " : "", t.degrees & 8 ? "cubics" : "");
     fmt::print("  sampler     {}, {}, {}; longest list {} entries, most bands {}\n", t.bands ? "bands" : "no bands",
-               t.corners || t.patches ? "gradients" : "constant colours", t.translucent ? "translucent" : "opaque",
-               t.max_entries, t.max_bands);
+               gradients_text(fbt), t.translucent ? "translucent" : "opaque", t.max_entries, t.max_bands);
 }
 
 void print_text(const std::string& path, const FetexInput& input, bool stats) {

@@ -26,15 +26,16 @@ using DecodePng = int (*)(const std::uint8_t* bytes, std::size_t size, std::uint
 /// How a picture of any kind was read.
 enum class ImageOutcome : int { Read = 0, Unreadable, TooLarge, Unsupported };
 
-/// Takes premultiplied, sRGB-encoded RGBA16, rows from the top, and the number of pixels that were clipped to 0…1; or
-/// on failure the reason as width bytes of UTF-8, height 0.
+/// Takes premultiplied, sRGB-encoded RGBA floats, 65535 = 1, rows from the top, and the number of pixels that were
+/// clipped; or on failure the reason as width bytes of UTF-8, height 0.
 using ImageSink = void (*)(void* context, const void* bytes, std::uint32_t width, std::uint32_t height,
                            std::uint64_t clipped);
 
 /// Any image that OpenImageIO reads, turned as its Orientation says; of an EXR the display window. Refused before
-/// anything is decoded: sides of more than max_side, more than max_pixels. Calls the sink once.
-using DecodeImage = ImageOutcome (*)(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, ImageSink sink,
-                                     void* context);
+/// anything is decoded: sides of more than max_side, more than max_pixels. Straight, encoded colours are clipped to 0 …
+/// most: at 1 they are rounded to 16 bits, above not. Calls the sink once.
+using DecodeImage = ImageOutcome (*)(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most,
+                                     ImageSink sink, void* context);
 
 inline constexpr const char* kPngModule = "libfetexc_png.so";
 inline constexpr const char* kEncodePng = "fetexc_encode_png";

@@ -28,6 +28,9 @@ struct CompileOptions {
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
     SkipRules skip = {};  ///< nor do these
     bool mips = false;    ///< a mip chain too (formats/fbt_mip.h), for views of more than a texel a pixel
+    /// Of gradients' samples. More bits round them more finely, and colours of which 8 bits aren't enough; what a
+    /// gradient is between its samples they don't change.
+    fetex::FbtSampleFormat sample_format = fetex::FbtSampleFormat::Rgba8;
 };
 
 /// Called from one thread at a time; fraction in [0,1].

@@ -141,7 +141,7 @@ inline constexpr double kDemotionTolerance = 0x1p-17;
 inline constexpr double kRegionTolerance = 0x1p-14;
 
 /// Steps of an 8-bit colour channel: compositing k layers rounds k·2^-51 of a step at most, so a product that is an
-/// exact tie lands within this of it for any k below 2^20, and always rounds up.
+/// exact tie lands within this of it for any k below 2^20, and always rounds up. Of 16 bits: for any k below 2^12.
 inline constexpr double kColourTie = 0x1p-30;
 
 /// Lattice steps: accuracy of the ground truth's distances. Evaluating a Bezier of coordinates up to 2^28 in double
@@ -218,6 +218,8 @@ inline constexpr double kImageAnchor = 0x1p-9;
 /// Colour channel: the fit ends when no corner would move by more in a Jacobi step (a thirtieth of a step of 8 bits;
 /// divided by the texels in a pixel, as such a step is), or after so many steps; long chains of holes, whose values hardly depend on each other, need some hundred.
 inline constexpr double kImageFitStep = 0x1p-13;
+/// The same where samples have 16 bits: a thirtieth of their step; of halves, of that below 1.
+inline constexpr double kImageFitStep16 = 0x1p-21, kImageFitStepHalf = 0x1p-16;
 inline constexpr int kImageFitSteps = 400;
 
 /// Pixels: what a boundary drawn by lines from change to change is off by where it bends with a radius of a pixel or

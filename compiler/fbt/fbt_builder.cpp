@@ -66,7 +66,8 @@ class Builder {
     Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
             Compositor& compositor, const SampleSource* samples = nullptr)
         : scene_(scene), options_(options), map_(map), compositor_(compositor),
-          corners_(map, scene, compositor, options.threads), sampler_(map, scene, compositor, corners_),
+          corners_(map, scene, compositor, options.threads),
+          sampler_(map, scene, compositor, corners_, options.sample_format),
           samples_(samples != nullptr ? *samples : sampler_),
           separation_(samples != nullptr ? Separation::Edges : Separation::Results),
           progress_(progress, map.grid().height) {}
@@ -114,7 +115,7 @@ class Builder {
         TexelMapper mapper(map_, scene_, compositor_, stats, options_.skip);
         if (separation_ == Separation::Edges) mapper.tell_faces_apart();
         FeatureBuilder feature_builder(map_, mapper, options_.skip);
-        RowWriter writer(map_, samples_, out);
+        RowWriter writer(map_, samples_, options_.sample_format, out);
         TexelMap texel;
         TexelFeatures features;
         Status status;
@@ -158,6 +159,7 @@ class Builder {
         build.report = std::move(report);
         fetex::FbtTexture& t = build.texture;
         t.width = map_.grid().width, t.height = map_.grid().height;
+        t.sample_format = options_.sample_format;
         for (const RowOutput& row : rows)
             add(t.traits, row.traits), add(build.report.fbt, row.stats);
         std::vector<std::uint32_t> collapsed; // vertices of the graph
@@ -239,13 +241,17 @@ class Builder {
     }
 
     void place_corners(fetex::FbtTexture& t) const {
-        const std::size_t columns = std::size_t{t.width} + 1;
-        t.corners.resize(columns * (std::size_t{t.height} + 1));
+        const std::size_t words = fetex::fbt_sample_words(t.sample_format), columns = std::size_t{t.width} + 1;
+        t.corners.resize(words * columns * (std::size_t{t.height} + 1));
         parallel_for(std::size_t{t.height} + 1, options_.threads, [&](std::size_t j) {
-            for (std::uint32_t i = 0; i <= t.width; ++i)
-                t.corners[j * columns + i] = pack_rgba8(samples_.corner(i, static_cast<std::uint32_t>(j)));
+            for (std::uint32_t i = 0; i <= t.width; ++i) {
+                const Rgba c = samples_.corner(i, static_cast<std::uint32_t>(j));
+                const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, t.sample_format);
+                std::copy_n(packed.begin(), words, t.corners.data() + words * (j * columns + i));
+            }
         });
-        t.traits.translucent |= std::ranges::any_of(t.corners, [](std::uint32_t c) { return c < 0xff000000u; });
+        for (std::size_t k = 0; k < t.corners.size(); k += words)
+            t.traits.translucent |= !fetex::fbt_sample_opaque(t.corners.data() + k, t.sample_format);
     }
 
     const Scene& scene_;
@@ -332,7 +338,9 @@ Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, co
     const Grid grid = make_grid(scene.extent, size.value().width, size.value().height);
     Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
     if (!map) return map.error();
-    auto compositor = std::make_unique<Compositor>(scene, options.skip);
+    const ColorSteps steps =
+        options.sample_format == fetex::FbtSampleFormat::Rgba8 ? ColorSteps::Rgba8 : ColorSteps::Rgba16;
+    auto compositor = std::make_unique<Compositor>(scene, options.skip, steps);
     Result<FbtBuild> build = Builder(scene, options, progress, map.value(), *compositor).run(report, regions);
     if (build && options.mips) {
         if (progress) progress("mip chain", 0);

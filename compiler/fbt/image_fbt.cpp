@@ -22,6 +22,18 @@ double texels_per_pixel(const FeaturedImage& picture, const Grid& grid) {
     return static_cast<double>(grid.width) / picture.image.width * grid.height / picture.image.height;
 }
 
+double fit_step(fetex::FbtSampleFormat format) {
+    switch (format) {
+    case fetex::FbtSampleFormat::Rgba8:
+        return budget::kImageFitStep;
+    case fetex::FbtSampleFormat::Rgba16:
+        return budget::kImageFitStep16;
+    case fetex::FbtSampleFormat::Rgba16F:
+        return budget::kImageFitStepHalf;
+    }
+    return budget::kImageFitStep;
+}
+
 /// Every valid pixel is a sample of its region, at its place, and those of a texel count together as one; every hole's
 /// mean is wanted to be the copied colour.
 void add_samples(const FeaturedImage& picture, const ImageRegions& regions, const RegionColors& colors,
@@ -154,13 +166,13 @@ Result<FbtBuild> compile_fbt(const FeaturedImage& picture, const CompileOptions&
     std::vector<Channels> values = first_guess(fit, colors);
     guess_between_pixels(picture, regions.value().graph, fit, valid, grid, values);
     report.image.width = image.width, report.image.height = image.height;
-    report.image.fit_steps =
-        fit.solve(values, budget::kImageFitStep / std::max(1.0, texels_per_pixel(picture, grid)), options.threads);
+    report.image.fit_steps = fit.solve(
+        values, fit_step(options.sample_format) / std::max(1.0, texels_per_pixel(picture, grid)), options.threads);
     report.image.holes_filled = colors.holes;
     report.image.parts_unsampled = colors.parts_unsampled;
     report.image.floating = regions.value().floating;
     report_findings(picture, grid, colors, report);
-    const ImageSamples samples(regions.value().graph, fit, values, grid);
+    const ImageSamples samples(regions.value().graph, fit, values, grid, options.sample_format);
     return build_fbt_of_features(picture.features, map.value(), samples, std::move(report), options, progress);
 }
 

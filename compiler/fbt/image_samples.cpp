@@ -160,8 +160,8 @@ RegionColors region_colors(const RasterImage& image, const ImageRegions& regions
 }
 
 ImageSamples::ImageSamples(const ReachabilityGraph& graph, const CornerFit& fit, const std::vector<Channels>& values,
-                           const Grid& grid)
-    : graph_(graph), fit_(fit), values_(values), width_(grid.width), height_(grid.height) {
+                           const Grid& grid, fetex::FbtSampleFormat format)
+    : graph_(graph), fit_(fit), values_(values), width_(grid.width), height_(grid.height), format_(format) {
     if (std::max(width_, height_) + 1 <= fetex::kFbtMaxSide) choose_corners();
 }
 
@@ -206,7 +206,8 @@ std::uint32_t ImageSamples::any_unknown(std::size_t corner) const {
 Rgba ImageSamples::color(std::uint32_t unknown) const {
     const Channels& v = values_[unknown];
     const double alpha = std::clamp(v[3], 0.0, 1.0);
-    return {std::clamp(v[0], 0.0, alpha), std::clamp(v[1], 0.0, alpha), std::clamp(v[2], 0.0, alpha), alpha};
+    const double most = format_ == fetex::FbtSampleFormat::Rgba16F ? fetex::kFbtMaxHalf : alpha;
+    return {std::clamp(v[0], 0.0, most), std::clamp(v[1], 0.0, most), std::clamp(v[2], 0.0, most), alpha};
 }
 
 Rgba ImageSamples::corner(std::uint32_t i, std::uint32_t j) const {
@@ -221,7 +222,7 @@ RegionSample ImageSamples::sample_of(std::uint32_t region, std::uint32_t i, std:
         colors[k] = color(unknown);
         common = common && corners_[(std::size_t{j} + k / 2) * (width_ + 1) + i + k % 2] == unknown;
     }
-    const RegionSample sample = patch_sample(colors);
+    const RegionSample sample = patch_sample(colors, format_);
     if (sample.model == fetex::kFbtModelPatch && common) return {fetex::kFbtModelCorners, 0, {}};
     return sample;
 }

@@ -34,7 +34,7 @@ class ImageSamples final : public SampleSource {
   public:
     /// values: of the fit's unknowns. All must outlive this.
     ImageSamples(const ReachabilityGraph& graph, const CornerFit& fit, const std::vector<Channels>& values,
-                 const Grid& grid);
+                 const Grid& grid, fetex::FbtSampleFormat format);
 
     [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const override;
     [[nodiscard]] RegionSample region(const TexelMap& texel, const TexelFeatures& features,
@@ -51,6 +51,7 @@ class ImageSamples final : public SampleSource {
     const CornerFit& fit_;
     const std::vector<Channels>& values_;
     std::uint32_t width_, height_;
+    fetex::FbtSampleFormat format_;
     std::vector<std::uint32_t> corners_; ///< the unknown that the corner's common colour shows; empty: none are stored
 };
 

@@ -34,9 +34,7 @@ void RowWriter::write_whole(const RegionSample& sample) {
     } else if (sample.model == kFbtModelCorners) {
         word = (kFbtKindShaded << 30) | (kFbtModelCorners << 28);
     } else if (sample.model == kFbtModelPatch || c != 0) {
-        const std::array<std::uint32_t, 4> flat{c, c, c, c};
-        word = (kFbtKindShaded << 30) | (kFbtModelPatch << 28) |
-               write_patch(sample.model == kFbtModelPatch ? sample.patch : flat);
+        word = (kFbtKindShaded << 30) | (kFbtModelPatch << 28) | write_patch(sample);
     }
     out_.texels.push_back(word);
 }
@@ -84,10 +82,12 @@ void RowWriter::write_directory() {
     end_record();
 }
 
-std::uint32_t RowWriter::write_patch(const std::array<std::uint32_t, 4>& patch) {
+std::uint32_t RowWriter::write_patch(const RegionSample& sample) {
+    const std::uint32_t words = fbt_sample_words(format_);
+    const auto patch = std::span(sample.patch).first(std::size_t{4} * words);
     out_.traits.patches = true;
-    for (const std::uint32_t c : patch)
-        out_.traits.translucent |= c < kAlpha;
+    for (std::size_t k = 0; k < patch.size(); k += words)
+        out_.traits.translucent |= !fbt_sample_opaque(patch.data() + k, format_);
     const std::uint32_t at = next_word();
     if (const std::optional<std::uint32_t> equal = patches_.find_or_add(patch, at, out_.records)) return *equal / 4;
     out_.records.insert(out_.records.end(), patch.begin(), patch.end());
@@ -110,7 +110,7 @@ void RowWriter::ready_sample(std::uint32_t region) {
     is_ready_[region] = true;
     const RegionSample& s = samples_[region];
     note_sample(s);
-    ready_[region] = {s.model, s.model == kFbtModelPatch ? write_patch(s.patch) : s.rgba};
+    ready_[region] = {s.model, s.model == kFbtModelPatch ? write_patch(s) : s.rgba};
 }
 
 bool RowWriter::same_runs(const ReadyFeature& a, const ReadyFeature& b) const {

@@ -56,8 +56,8 @@ class WrittenWords {
 
 class RowWriter {
   public:
-    RowWriter(const PlanarMap& map, const SampleSource& sampler, RowOutput& out)
-        : map_(map), sampler_(sampler), out_(out) {}
+    RowWriter(const PlanarMap& map, const SampleSource& sampler, fetex::FbtSampleFormat format, RowOutput& out)
+        : map_(map), sampler_(sampler), format_(format), out_(out) {}
 
     /// A texel of one region.
     void write_whole(const RegionSample& sample);
@@ -93,8 +93,8 @@ class RowWriter {
     void write_rest(std::uint32_t entry, std::uint32_t region);
     void end_record() { out_.records.resize((out_.records.size() + 3) / 4 * 4, 0); }
     void note_region(std::uint32_t entry, bool rest, std::uint32_t region);
-    /// The patch's record.
-    std::uint32_t write_patch(const std::array<std::uint32_t, 4>& patch);
+    /// The patch's record, or the first of two.
+    std::uint32_t write_patch(const RegionSample& sample);
     /// Patches are in the records then.
     void ready_samples();
     void ready_sample(std::uint32_t region);
@@ -106,6 +106,7 @@ class RowWriter {
 
     const PlanarMap& map_;
     const SampleSource& sampler_;
+    fetex::FbtSampleFormat format_;
     RowOutput& out_;
     /// Model and sample word of a region.
     struct ReadySample {

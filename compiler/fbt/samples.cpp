@@ -12,10 +12,6 @@
 namespace fetexc {
 namespace {
 
-std::uint32_t pack_channel(double v) {
-    return static_cast<std::uint32_t>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5));
-}
-
 std::array<double, 4> channels(const Rgba& c) { return {c.r, c.g, c.b, c.a}; }
 
 /// A point of a region, texel-local, the area it stands for, and the paint there.
@@ -31,7 +27,7 @@ std::array<double, 4> corner_weights(double x, double y) {
 } // namespace
 
 std::uint32_t pack_rgba8(const Rgba& c) {
-    return pack_channel(c.r) | (pack_channel(c.g) << 8) | (pack_channel(c.b) << 16) | (pack_channel(c.a) << 24);
+    return fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
 CanvasPoint to_canvas(const Scene& scene, const Grid& grid, double x, double y) {
@@ -79,20 +75,49 @@ std::array<Rgba, 4> RegionSampler::corner_paints(std::uint32_t i, std::uint32_t 
     return {paint_at(result, x0, y0), paint_at(result, x1, y0), paint_at(result, x0, y1), paint_at(result, x1, y1)};
 }
 
-RegionSample solid_sample(const Rgba& c) { return {fetex::kFbtModelSolid, pack_rgba8(c), {}}; }
+namespace {
 
-RegionSample patch_sample(const std::array<Rgba, 4>& c) {
-    const RegionSample s{
-        fetex::kFbtModelPatch, 0, {pack_rgba8(c[0]), pack_rgba8(c[1]), pack_rgba8(c[2]), pack_rgba8(c[3])}};
-    const bool equal = s.patch[0] == s.patch[1] && s.patch[0] == s.patch[2] && s.patch[0] == s.patch[3];
-    return equal ? RegionSample{fetex::kFbtModelSolid, s.patch[0], {}} : s;
+/// RGBA8 is as near to the colour as the format's own rounding may be.
+bool eight_bits_hold(const Rgba& c, std::uint32_t rgba8, fetex::FbtSampleFormat format) {
+    if (format == fetex::FbtSampleFormat::Rgba8) return true;
+    const std::array<double, 4> held = fetex::fbt_sample_channels(&rgba8, fetex::FbtSampleFormat::Rgba8),
+                                wanted = channels(c);
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (std::fabs(held[k] / 255 - wanted[k]) > fetex::fbt_sample_rounding(wanted[k], format)) return false;
+    }
+    return true;
+}
+
+std::array<std::uint32_t, 8> pack_patch(const std::array<Rgba, 4>& corners, fetex::FbtSampleFormat format) {
+    std::array<std::uint32_t, 8> patch{};
+    auto at = patch.begin();
+    for (const Rgba& c : corners) {
+        const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, format);
+        at = std::copy_n(packed.begin(), fetex::fbt_sample_words(format), at);
+    }
+    return patch;
+}
+
+} // namespace
+
+RegionSample solid_sample(const Rgba& c, fetex::FbtSampleFormat format) {
+    const std::uint32_t rgba = pack_rgba8(c);
+    return {eight_bits_hold(c, rgba, format) ? fetex::kFbtModelSolid : fetex::kFbtModelPatch, rgba,
+            pack_patch({c, c, c, c}, format)};
+}
+
+RegionSample patch_sample(const std::array<Rgba, 4>& c, fetex::FbtSampleFormat format) {
+    const RegionSample s{fetex::kFbtModelPatch, 0, pack_patch(c, format)};
+    const std::uint32_t words = fetex::fbt_sample_words(format);
+    const bool equal = std::equal(s.patch.begin() + words, s.patch.begin() + 4 * words, s.patch.begin());
+    return equal ? solid_sample(c[0], format) : s;
 }
 
 RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const {
     const ResultId result = corners_.at(i, j);
-    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}));
+    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}), format_);
     if (corners_.worth_storing() && corners_.surround(i, j, result)) return {fetex::kFbtModelCorners, 0, {}};
-    return patch_sample(corner_paints(i, j, result));
+    return patch_sample(corner_paints(i, j, result), format_);
 }
 
 namespace {
@@ -228,7 +253,7 @@ std::array<Rgba, 4> least_squares(const std::vector<QuadraturePoint>& points) {
 
 RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& features, std::uint32_t r) const {
     const ResultId result = features.region_result[r];
-    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}));
+    if (compositor_.is_solid(result)) return solid_sample(compositor_.color(result, {}), format_);
     if (corners_.worth_storing() && corners_.surround(texel.i, texel.j, result))
         return {fetex::kFbtModelCorners, 0, {}};
     const std::array<Rgba, 4> paints = corner_paints(texel.i, texel.j, result);
@@ -237,7 +262,7 @@ RegionSample RegionSampler::region(const TexelMap& texel, const TexelFeatures& f
         q.paint = paint_at(result, static_cast<double>(map_.grid().px) * (texel.i + q.x),
                            static_cast<double>(map_.grid().py) * (texel.j + q.y));
     }
-    return patch_sample(fits(paints, points) ? paints : least_squares(points));
+    return patch_sample(fits(paints, points) ? paints : least_squares(points), format_);
 }
 
 } // namespace fetexc

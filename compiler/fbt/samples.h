@@ -7,15 +7,19 @@
 #include <vector>
 
 #include "compiler/fbt/features.h"
+#include "formats/fbt_samples.h"
 
 namespace fetexc {
 
 struct RegionSample {
-    std::uint32_t model = 0;              ///< fetex::kFbtModel…
-    std::uint32_t rgba = 0;               ///< solid: premultiplied RGBA8, R low
-    std::array<std::uint32_t, 4> patch{}; ///< corners (0,0), (1,0), (0,1), (1,1) of the texel
+    std::uint32_t model = 0; ///< fetex::kFbtModel…
+    std::uint32_t rgba = 0;  ///< solid: premultiplied RGBA8, R low
+    /// Samples at the corners (0,0), (1,0), (0,1), (1,1) of the texel, as many words as the format takes; of a solid
+    /// colour four equal ones.
+    std::array<std::uint32_t, 8> patch{};
 };
 
+/// Colours may not exceed alpha: what does is clipped.
 std::uint32_t pack_rgba8(const Rgba& premultiplied);
 
 /// The visible result at every texel's corner, (width+1)×(height+1).
@@ -62,15 +66,16 @@ class SampleSource {
     [[nodiscard]] virtual Rgba corner(std::uint32_t i, std::uint32_t j) const = 0;
 };
 
-/// A sample of the model solid.
-RegionSample solid_sample(const Rgba& premultiplied);
+/// A sample of the model solid; a patch if 8 bits don't hold the colour as well as the format would.
+RegionSample solid_sample(const Rgba& premultiplied, fetex::FbtSampleFormat format);
 /// Of the model patch; four equal corners are a colour.
-RegionSample patch_sample(const std::array<Rgba, 4>& premultiplied);
+RegionSample patch_sample(const std::array<Rgba, 4>& premultiplied, fetex::FbtSampleFormat format);
 
 class RegionSampler final : public SampleSource {
   public:
-    RegionSampler(const PlanarMap& map, const Scene& scene, Compositor& compositor, const CornerResults& corners)
-        : map_(map), scene_(scene), compositor_(compositor), corners_(corners) {}
+    RegionSampler(const PlanarMap& map, const Scene& scene, Compositor& compositor, const CornerResults& corners,
+                  fetex::FbtSampleFormat format)
+        : map_(map), scene_(scene), compositor_(compositor), corners_(corners), format_(format) {}
 
     /// Region of an empty texel.
     [[nodiscard]] RegionSample whole(std::uint32_t i, std::uint32_t j) const override;
@@ -89,6 +94,7 @@ class RegionSampler final : public SampleSource {
     const Scene& scene_;
     Compositor& compositor_;
     const CornerResults& corners_;
+    fetex::FbtSampleFormat format_;
 };
 
 } // namespace fetexc

@@ -197,24 +197,29 @@ struct Shard {
 };
 
 /// Products that are a tie in exact arithmetic must not fall to either side by rounding.
-std::uint64_t rounded_channel(double v) {
-    return static_cast<std::uint64_t>(std::floor(std::clamp(v, 0.0, 1.0) * 255 + 0.5 + budget::kColourTie));
+std::uint64_t rounded_channel(double v, ColorSteps steps) {
+    return static_cast<std::uint64_t>(
+        std::floor(std::clamp(v, 0.0, 1.0) * static_cast<double>(steps) + 0.5 + budget::kColourTie));
 }
 
-/// RGBA8, premultiplied: the identity of a solid colour.
-std::uint64_t packed(const Rgba& c) {
-    return rounded_channel(c.r) | rounded_channel(c.g) << 8 | rounded_channel(c.b) << 16 | rounded_channel(c.a) << 24;
+/// 16 bits for each channel, premultiplied: the identity of a solid colour.
+std::uint64_t packed(const Rgba& c, ColorSteps steps) {
+    return rounded_channel(c.r, steps) | rounded_channel(c.g, steps) << 16 | rounded_channel(c.b, steps) << 32 |
+           rounded_channel(c.a, steps) << 48;
 }
 
-Rgba unpacked(std::uint64_t c) {
-    const auto channel = [c](int shift) { return static_cast<double>(c >> shift & 0xff) / 255.0; };
-    return {channel(0), channel(8), channel(16), channel(24)};
+Rgba unpacked(std::uint64_t c, ColorSteps steps) {
+    const auto channel = [&](int shift) {
+        return static_cast<double>(c >> shift & 0xffff) / static_cast<double>(steps);
+    };
+    return {channel(0), channel(16), channel(32), channel(48)};
 }
 
 } // namespace
 
 struct Compositor::Impl {
-    Impl(const Scene& s, const SkipRules& rules) : scene(s), skip(rules), index(s) {}
+    Impl(const Scene& s, const SkipRules& rules, ColorSteps of_solids)
+        : scene(s), skip(rules), steps(of_solids), index(s) {}
 
     /// A builder has scratch memory per clip: lent to one call at a time.
     std::unique_ptr<StackBuilder> take_builder() {
@@ -233,9 +238,9 @@ struct Compositor::Impl {
         Entry entry;
         Key key;
         if (const std::optional<Rgba> color = solid_color(stack)) {
-            key = {packed(*color)}; // one word: no stack's key is that short
+            key = {packed(*color, steps)}; // one word: no stack's key is that short
             entry.solid = true;
-            entry.color = unpacked(key.front());
+            entry.color = unpacked(key.front(), steps);
         } else {
             append_key(stack, key);
             entry.stack = std::move(stack);
@@ -249,6 +254,7 @@ struct Compositor::Impl {
 
     const Scene& scene;
     SkipRules skip;
+    ColorSteps steps;
     TreeIndex index;
     std::mutex builders_mutex;
     std::vector<std::unique_ptr<StackBuilder>> builders;
@@ -257,7 +263,8 @@ struct Compositor::Impl {
     tbb::concurrent_unordered_map<Inside, ResultId, InsideHash> known;
 };
 
-Compositor::Compositor(const Scene& scene, const SkipRules& skip) : impl_(std::make_unique<Impl>(scene, skip)) {}
+Compositor::Compositor(const Scene& scene, const SkipRules& skip, ColorSteps steps)
+    : impl_(std::make_unique<Impl>(scene, skip, steps)) {}
 Compositor::~Compositor() = default;
 
 ResultId Compositor::resolve(std::span<const std::uint32_t> inside) {

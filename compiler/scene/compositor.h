@@ -13,15 +13,18 @@
 namespace fetexc {
 
 /// Identity of a visible result: two regions with equal ids look the same everywhere (same solid colour after rounding
-/// to RGBA8, or the same reduced paint stack), so an edge between them is invisible. Ids are valid within one
-/// Compositor and their order means nothing (they depend on the order of calls).
+/// to the compositor's steps, or the same reduced paint stack), so an edge between them is invisible. Ids are valid
+/// within one Compositor and their order means nothing (they depend on the order of calls).
 using ResultId = std::uint32_t;
+
+/// What solid colours are rounded to: steps of a channel in 1.
+enum class ColorSteps : std::uint32_t { Rgba8 = 255, Rgba16 = 65535 };
 
 /// Thread-safe.
 class Compositor {
   public:
     /// The scene must outlive the compositor.
-    explicit Compositor(const Scene& scene, const SkipRules& skip = {});
+    explicit Compositor(const Scene& scene, const SkipRules& skip = {}, ColorSteps steps = ColorSteps::Rgba8);
     ~Compositor();
     Compositor(const Compositor&) = delete;
     Compositor& operator=(const Compositor&) = delete;

@@ -19,7 +19,7 @@ template <class Color> RasterImage image_of(std::uint32_t width, std::uint32_t h
         for (std::uint32_t x = 0; x < width; ++x) {
             const Rgba c = color(x + 0.5, y + 0.5);
             for (const double v : {c.r, c.g, c.b, c.a})
-                image.rgba.push_back(static_cast<std::uint16_t>(std::lround(v * 65535)));
+                image.rgba.push_back(static_cast<float>(std::lround(v * 65535)));
         }
     }
     return image;

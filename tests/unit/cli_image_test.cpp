@@ -25,8 +25,8 @@ class ImageFile : public testing::Test {
         std::ofstream(path, std::ios::binary) << bytes;
         return path.string();
     }
-    RasterImage read(const std::string& name, const std::string& bytes) {
-        auto image = read_image(write(name, bytes), diagnostics_);
+    RasterImage read(const std::string& name, const std::string& bytes, bool bright = false) {
+        auto image = read_image(write(name, bytes), bright, diagnostics_);
         if (!image.ok()) throw std::runtime_error(image.error().message);
         return std::move(image).value();
     }
@@ -85,6 +85,18 @@ TEST_F(ImageFile, floatsAreLinearAndClipped) {
     EXPECT_EQ(diagnostics_[0].message.substr(0, 2), "1 ");
 }
 
+TEST_F(ImageFile, floatsMayStayBrighterThanWhite) {
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    const RasterImage image = read("a.hdr", header + bytes_of({128, 64, 32, 128, 128, 128, 0, 141}), true);
+    const auto encoded = [](double c) { return 1.055 * std::pow(c, 1 / 2.4) - 0.055; };
+    expect_pixel(image, 0, 0, {encoded(0.5), encoded(0.25), encoded(0.125), 1}, 0.004);
+    expect_pixel(image, 1, 0, {encoded(4096), encoded(4096), 0, 1}, 0.1);
+    EXPECT_TRUE(diagnostics_.empty());
+    // Integers end at 1, and keep what 16 bits say.
+    const RasterImage sixteen = read("b.pgm", "P5\n1 1\n65535\n" + bytes_of({0x12, 0x34}), true);
+    expect_pixel(sixteen, 0, 0, {0x1234 / 65535.0, 0x1234 / 65535.0, 0x1234 / 65535.0, 1}, 1e-6);
+}
+
 std::string tiff(std::uint16_t orientation) {
     std::string out = bytes_of({'I', 'I', 42, 0, 8, 0, 0, 0});
     const auto word = [&](std::uint32_t v, int bytes) {
@@ -120,7 +132,7 @@ TEST_F(ImageFile, isTurnedAsItsOrientationSays) {
 
 TEST_F(ImageFile, refusesWhatItCantTake) {
     const auto code = [&](const std::string& name, const std::string& bytes) {
-        const auto image = read_image(write(name, bytes), diagnostics_);
+        const auto image = read_image(write(name, bytes), false, diagnostics_);
         return image.ok() ? 0 : image.error().code;
     };
     EXPECT_EQ(code("a.png", "no picture"), diag::kImageUnreadable);
