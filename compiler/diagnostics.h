@@ -52,7 +52,7 @@ inline constexpr int kSvgRasterReduced = 2017;     ///< a bitmap has far more pi
 inline constexpr int kFeaturesAspect = 2051;     ///< the features' drawing has another aspect than the image, and is stretched over it
 inline constexpr int kNoFeatures = 2052;         ///< no feature lies on the image: its texture is an ordinary bilinear one
 inline constexpr int kFeaturesUnclipped = 2053;  ///< clips and masks in the features' drawing don't cut its features
-inline constexpr int kImageClipped = 2054;       ///< pixels beyond 0…1, or not finite, were clipped
+inline constexpr int kImageClipped = 2054;       ///< pixels beyond 0…1 (`--samples float`: 0…65504), or not finite, were clipped
 inline constexpr int kRegionsUnsampled = 2055;   ///< parts without a valid pixel to reach took prefiltered ones
 inline constexpr int kTexelsTooSmall = 2056;     ///< more than four texels a pixel along a side: gradients may stop before they reach a feature
 

@@ -108,6 +108,17 @@ TEST(WideDrawings, keepSolidColoursAsFineAsGradients) {
               build(exact, FbtSampleFormat::Rgba8).texture.records);
 }
 
+/// An edge between colours that 8 bits don't tell apart is invisible to them alone.
+TEST(WideDrawings, keepEdgesThatEightBitsDoNotShow) {
+    const Scene scene = from_svg("<path fill='#123456' d='M0 0H64V64H0Z'/>"
+                                 "<circle cx='30' cy='34' r='19' fill='#123476' fill-opacity='0.01'/>");
+    EXPECT_EQ(build(scene, FbtSampleFormat::Rgba8).texture.traits.max_entries, 0u);
+    const FbtTexture t = build(scene, FbtSampleFormat::Rgba16).texture;
+    EXPECT_GT(t.traits.max_entries, 0u);
+    EXPECT_NEAR(fetex::fbt_sample(t, 7.5, 8.5).b / kStep, 0x56 + 0.01 * 0x20, 0.01);
+    EXPECT_NEAR(fetex::fbt_sample(t, 1.5, 8.5).b / kStep, 0x56, 1e-9);
+}
+
 TEST(WideDrawings, areTheSameForAnyNumberOfThreads) {
     const Scene scene = from_svg(
         "<radialGradient id='a'><stop stop-color='red' stop-opacity='.3'/><stop offset='1' stop-color='#08f'/>"
