@@ -79,7 +79,6 @@ namespace {
 
 /// RGBA8 is as near to the colour as the format's own rounding may be.
 bool eight_bits_hold(const Rgba& c, std::uint32_t rgba8, fetex::FbtSampleFormat format) {
-    if (format == fetex::FbtSampleFormat::Rgba8) return true;
     const std::array<double, 4> held = fetex::fbt_sample_channels(&rgba8, fetex::FbtSampleFormat::Rgba8),
                                 wanted = channels(c);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -101,9 +100,14 @@ std::array<std::uint32_t, 8> pack_patch(const std::array<Rgba, 4>& corners, fete
 } // namespace
 
 RegionSample solid_sample(const Rgba& c, fetex::FbtSampleFormat format) {
-    const std::uint32_t rgba = pack_rgba8(c);
-    return {eight_bits_hold(c, rgba, format) ? fetex::kFbtModelSolid : fetex::kFbtModelPatch, rgba,
-            pack_patch({c, c, c, c}, format)};
+    RegionSample s{fetex::kFbtModelSolid, pack_rgba8(c), {}};
+    if (format == fetex::FbtSampleFormat::Rgba8) { // most texels: packed once
+        std::fill_n(s.patch.begin(), 4, s.rgba);
+        return s;
+    }
+    if (!eight_bits_hold(c, s.rgba, format)) s.model = fetex::kFbtModelPatch;
+    s.patch = pack_patch({c, c, c, c}, format);
+    return s;
 }
 
 RegionSample patch_sample(const std::array<Rgba, 4>& c, fetex::FbtSampleFormat format) {
