@@ -7,9 +7,11 @@
 
 #include "compiler/error_budget.h"
 #include "compiler/fbt/samples.h"
+#include "compiler/gauss.h"
 #include "compiler/parallel.h"
 #include "compiler/planar/texel_map.h"
 #include "compiler/planar/trapezoid_area.h"
+#include "compiler/planar/trapezoid_sides.h"
 
 namespace fetexc {
 namespace {
@@ -48,18 +50,11 @@ struct Estimate {
     [[nodiscard]] double span() const { return difference(least, most); }
 };
 
-struct GaussPoint {
-    double at, weight;
-};
-constexpr double kGaussReach = 0.38729833462074170; ///< √15 / 10: three points are exact for degree 5
-constexpr std::array<GaussPoint, 3> kGauss{
-    {{0.5 - kGaussReach, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + kGaussReach, 5.0 / 18}}};
-
 /// Integrates one texel after another of a row.
 class TexelMeans {
   public:
     TexelMeans(const PlanarMap& map, const Scene& scene, const Compositor& compositor, MipStats& stats)
-        : map_(map), grid_(map.grid()), scene_(scene), compositor_(compositor), stats_(stats) {}
+        : map_(map), grid_(map.grid()), scene_(scene), compositor_(compositor), stats_(stats), sides_(map, 0, 0) {}
 
     Rgba whole(std::uint32_t i, std::uint32_t j, ResultId result) {
         ++stats_.texels;
@@ -67,13 +62,13 @@ class TexelMeans {
             ++stats_.texels_solid;
             return compositor_.color(result, {});
         }
-        stand_at(i, j, nullptr);
-        return mean({kNone, kNone, y0_, y1_}, result);
+        sides_ = TrapezoidSides(map_, i, j);
+        return mean({kNone, kNone, sides_.rows().low, sides_.rows().high}, result);
     }
 
     Rgba parts(const TexelMap& texel) {
         ++stats_.texels;
-        stand_at(texel.i, texel.j, &texel);
+        sides_ = TrapezoidSides(map_, texel);
         const double texel_area = static_cast<double>(grid_.px) * static_cast<double>(grid_.py);
         TrapezoidAreas areas(map_, texel);
         Rgba sum;
@@ -90,21 +85,9 @@ class TexelMeans {
   private:
     static constexpr int kHalvings = 5; ///< of a texel or trapezoid, in each direction: 1/32 of it
 
-    void stand_at(std::uint32_t i, std::uint32_t j, const TexelMap* texel) {
-        texel_ = texel;
-        x0_ = static_cast<double>(grid_.px * i), x1_ = static_cast<double>(grid_.px * (i + 1));
-        y0_ = static_cast<double>(grid_.py * j), y1_ = static_cast<double>(grid_.py * (j + 1));
-    }
-
     [[nodiscard]] Strip strip_of(const Trapezoid& t) const {
-        return {t.left, t.right, t.top_node == kNone ? y0_ : map_.node(texel_->graph.nodes[t.top_node]).y,
-                t.bottom_node == kNone ? y1_ : map_.node(texel_->graph.nodes[t.bottom_node]).y};
-    }
-
-    [[nodiscard]] double x_on(std::uint32_t edge, double y, double side) const {
-        if (edge == kNone) return side;
-        const Stretch s = map_.stretch_of(texel_->sub_edges[texel_->graph.edges[edge].sub]);
-        return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
+        const Extent1 y = sides_.levels(t);
+        return {t.left, t.right, y.low, y.high};
     }
 
     [[nodiscard]] Rgba paint_at(ResultId result, double x, double y) {
@@ -119,15 +102,15 @@ class TexelMeans {
         for (std::size_t row = 0; row < 3; ++row) {
             const GaussPoint& v = kGauss[row];
             const double y = s.y0 + v.at * (s.y1 - s.y0);
-            const double left = x_on(s.left, y, x0_), width = x_on(s.right, y, x1_) - left;
-            const double w = v.weight * (s.y1 - s.y0) * (s.u1 - s.u0) * std::max(width, 0.0);
+            const Extent1 x = sides_.at(s.left, s.right, y);
+            const double w = v.weight * (s.y1 - s.y0) * (s.u1 - s.u0) * std::max(x.size(), 0.0);
             if (!(w > 0)) {
                 e.bend = INFINITY;
                 continue;
             }
             for (std::size_t column = 0; column < 3; ++column) {
                 const GaussPoint& u = kGauss[column];
-                colors[row][column] = paint_at(result, left + (s.u0 + u.at * (s.u1 - s.u0)) * width, y);
+                colors[row][column] = paint_at(result, x.at(s.u0 + u.at * (s.u1 - s.u0)), y);
                 e.add_sample(colors[row][column], w * u.weight);
             }
         }
@@ -172,7 +155,7 @@ class TexelMeans {
         ++stats_.areas_sampled;
         const Estimate e = refined(s, gauss(s, result), result, kHalvings);
         if (e.weight > 0) return e.mean();
-        return paint_at(result, 0.5 * (x0_ + x1_), 0.5 * (s.y0 + s.y1)); // no area to speak of
+        return paint_at(result, sides_.columns().at(0.5), 0.5 * (s.y0 + s.y1)); // no area to speak of
     }
 
     const PlanarMap& map_;
@@ -180,8 +163,7 @@ class TexelMeans {
     const Scene& scene_;
     const Compositor& compositor_;
     MipStats& stats_;
-    const TexelMap* texel_ = nullptr;
-    double x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0; ///< the texel, planar space
+    TrapezoidSides sides_; ///< of the texel
 };
 
 /// Sums of one row of blocks: its rows of texels from top to bottom, each from left to right.

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "compiler/diagnostics.h"
 #include "compiler/fbt/features.h"
 #include "compiler/parallel.h"
+#include "compiler/planar/trapezoid_sides.h"
 #include "compiler/union_find.h"
 
 namespace fetexc {
@@ -19,31 +21,35 @@ Error inconsistent(std::uint32_t i, std::uint32_t j) {
             "texel (" + std::to_string(i) + ", " + std::to_string(j) + ")"};
 }
 
-/// The trapezoids of a texel, to find the region of a point.
+/// The trapezoids of a texel, to find the regions of points, level after level downwards.
 class TrapezoidIndex {
   public:
-    explicit TrapezoidIndex(const PlanarMap& map) : map_(map) {}
-
-    void list(const TexelMap& texel, const TexelFeatures& features) {
-        texel_ = &texel;
-        slabs_.clear();
-        const Grid& g = map_.grid();
-        const auto py = static_cast<double>(g.py);
+    TrapezoidIndex(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features)
+        : map_(map), texel_(texel), sides_(map, texel) {
         for (const Trapezoid& t : texel.sweep.trapezoids) {
-            const double y0 = t.top_node == kNone ? py * texel.j : level(t.top_node);
-            const double y1 = t.bottom_node == kNone ? py * (texel.j + 1) : level(t.bottom_node);
-            if (y1 > y0) slabs_.push_back({&t, y0, y1, features.region_of_face[t.face]});
+            const Extent1 y = sides_.levels(t);
+            if (y.size() > 0) slabs_.push_back({&t, y, features.region_of_face[t.face]});
         }
+        std::ranges::stable_sort(slabs_, {}, [](const Slab& s) { return s.y.low; });
     }
 
-    /// Of a point in planar space; points of edges belong to either side. kNone: in none, by a rounding.
-    [[nodiscard]] std::uint32_t region_at(double x, double y) const {
-        for (const Slab& s : slabs_) {
-            if (!(s.y0 <= y && y < s.y1)) continue;
-            const auto [left, right] = sides_at(s, y);
-            if (left <= x && x < right) return s.region;
-        }
-        return kNone;
+    /// Planar space; no level may be above the one before.
+    void descend(double y) {
+        while (next_ < slabs_.size() && slabs_[next_].y.low <= y)
+            open_.push_back(next_++);
+        std::erase_if(open_, [&](std::size_t k) { return slabs_[k].y.high <= y; });
+        stretches_.clear();
+        for (const std::size_t k : open_)
+            stretches_.push_back({sides_.at(*slabs_[k].trapezoid, y), slabs_[k].region});
+        std::ranges::sort(stretches_, {}, [](const Stretch1& s) { return std::tuple(s.x.low, s.x.high, s.region); });
+    }
+
+    /// Of a point on this level; points of edges belong to either side, and what roundings leave between two
+    /// trapezoids to the left one. kNone: the level has none.
+    [[nodiscard]] std::uint32_t region_at(double x) const {
+        if (stretches_.empty()) return kNone;
+        const auto right = std::ranges::upper_bound(stretches_, x, {}, [](const Stretch1& s) { return s.x.low; });
+        return (right == stretches_.begin() ? right : right - 1)->region;
     }
 
     /// For each region a point of its largest trapezoid, in texels.
@@ -51,40 +57,35 @@ class TrapezoidIndex {
         const Grid& g = map_.grid();
         std::vector<double> largest(regions, -1);
         const std::size_t first = out.size();
-        out.resize(first + regions, {texel_->i + 0.5, texel_->j + 0.5});
+        out.resize(first + regions, {texel_.i + 0.5, texel_.j + 0.5});
         for (const Slab& s : slabs_) {
-            const double y = 0.5 * (s.y0 + s.y1);
-            const auto [left, right] = sides_at(s, y);
-            const double area = (s.y1 - s.y0) * (right - left);
+            const double y = s.y.at(0.5);
+            const Extent1 x = sides_.at(*s.trapezoid, y);
+            const double area = s.y.size() * x.size();
             if (!(area > largest[s.region])) continue;
             largest[s.region] = area;
-            out[first + s.region] = {0.5 * (left + right) / static_cast<double>(g.px), y / static_cast<double>(g.py)};
+            out[first + s.region] = {x.at(0.5) / static_cast<double>(g.px), y / static_cast<double>(g.py)};
         }
     }
 
   private:
     struct Slab {
         const Trapezoid* trapezoid;
-        double y0, y1;
+        Extent1 y;
+        std::uint32_t region;
+    };
+    struct Stretch1 {
+        Extent1 x;
         std::uint32_t region;
     };
 
-    [[nodiscard]] double level(std::uint32_t node) const { return map_.node(texel_->graph.nodes[node]).y; }
-
-    [[nodiscard]] std::pair<double, double> sides_at(const Slab& s, double y) const {
-        const auto px = static_cast<double>(map_.grid().px);
-        return {x_on(s.trapezoid->left, y, px * texel_->i), x_on(s.trapezoid->right, y, px * (texel_->i + 1))};
-    }
-
-    [[nodiscard]] double x_on(std::uint32_t edge, double y, double side) const {
-        if (edge == kNone) return side;
-        const Stretch s = map_.stretch_of(texel_->sub_edges[texel_->graph.edges[edge].sub]);
-        return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
-    }
-
     const PlanarMap& map_;
-    const TexelMap* texel_ = nullptr;
-    std::vector<Slab> slabs_;
+    const TexelMap& texel_;
+    TrapezoidSides sides_;
+    std::vector<Slab> slabs_; ///< by their tops
+    std::size_t next_ = 0;
+    std::vector<std::size_t> open_; ///< slabs that hold the level
+    std::vector<Stretch1> stretches_;
 };
 
 /// Connected parts of the texel's edges that have one region on both sides.
@@ -126,7 +127,6 @@ class RegionFinder {
         TexelMapper mapper(map_, picture_.features, compositor_, unused, options_.skip);
         mapper.tell_faces_apart();
         FeatureBuilder builder(map_, mapper, options_.skip);
-        TrapezoidIndex index(map_);
         TexelMap texel;
         TexelFeatures features;
         UnionFind sets;
@@ -141,30 +141,36 @@ class RegionFinder {
             if (!edges || features.bands.empty()) {
                 const std::uint32_t region = reach.add_empty(0);
                 row.inside.push_back({i + 0.5, j + 0.5});
-                return each_pixel(i, j, [&](double, double) { return region; });
+                return each_pixel(
+                    i, j, [](double) {}, [&](double) { return region; });
             }
             const std::uint32_t first = reach.add_texel(texel, features.region_of_face, features.region_result);
-            index.list(texel, features);
+            TrapezoidIndex index(map_, texel, features);
             index.points(features.region_result.size(), row.inside);
-            each_pixel(i, j, [&](double x, double y) {
-                const std::uint32_t region = index.region_at(x, y);
-                return first + (region == kNone ? features.corner_region : region);
-            });
+            each_pixel(
+                i, j, [&](double y) { index.descend(y); },
+                [&](double x) {
+                    const std::uint32_t region = index.region_at(x);
+                    return first + (region == kNone ? features.corner_region : region);
+                });
         });
         return row;
     }
 
   private:
-    /// region_at(x, y) in planar space, for every pixel whose centre lies in the texel.
-    template <class RegionAt> void each_pixel(std::uint32_t i, std::uint32_t j, const RegionAt& region_at) {
+    /// For every row of pixels whose centres lie in the texel descend(y), then region_at(x) of each pixel; planar
+    /// space.
+    template <class Descend, class RegionAt>
+    void each_pixel(std::uint32_t i, std::uint32_t j, const Descend& descend, const RegionAt& region_at) {
         const Grid& g = map_.grid();
         const std::uint32_t width = picture_.image.width, height = picture_.image.height;
+        const std::uint32_t first = first_pixel(i, width, g.width), end = first_pixel(i + 1, width, g.width);
+        if (first == end) return;
         for (std::uint32_t y = first_pixel(j, height, g.height); y < first_pixel(j + 1, height, g.height); ++y) {
-            for (std::uint32_t x = first_pixel(i, width, g.width); x < first_pixel(i + 1, width, g.width); ++x) {
+            descend(pixel_centre(y, height, g.height) * static_cast<double>(g.py));
+            for (std::uint32_t x = first; x < end; ++x)
                 region_of_pixel_[std::size_t{y} * width + x] =
-                    region_at(pixel_centre(x, width, g.width) * static_cast<double>(g.px),
-                              pixel_centre(y, height, g.height) * static_cast<double>(g.py));
-            }
+                    region_at(pixel_centre(x, width, g.width) * static_cast<double>(g.px));
         }
     }
 

@@ -7,6 +7,7 @@
 
 #include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "compiler/planar/trapezoid_sides.h"
 #include "formats/validate.h"
 
 namespace fetexc {
@@ -126,27 +127,19 @@ RegionSample RegionSampler::whole(std::uint32_t i, std::uint32_t j) const {
 
 namespace {
 
-double x_on(const PlanarMap& map, const TexelMap& texel, std::uint32_t edge, double y, double side) {
-    if (edge == kNone) return side;
-    const Stretch s = map.stretch_of(texel.sub_edges[texel.graph.edges[edge].sub]);
-    return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
-}
-
 /// A trapezoid of a region and its levels.
 struct Slab {
     const Trapezoid* trapezoid;
-    double y0, y1;
+    Extent1 y;
 };
 
-std::vector<Slab> slabs_of(const PlanarMap& map, const TexelMap& texel, const TexelFeatures& features,
+std::vector<Slab> slabs_of(const TrapezoidSides& sides, const TexelMap& texel, const TexelFeatures& features,
                            std::uint32_t r) {
-    const auto py = static_cast<double>(map.grid().py);
     std::vector<Slab> slabs;
     for (const Trapezoid& t : texel.sweep.trapezoids) {
         if (features.region_of_face[t.face] != r) continue;
-        const double y0 = t.top_node == kNone ? py * texel.j : map.node(texel.graph.nodes[t.top_node]).y;
-        const double y1 = t.bottom_node == kNone ? py * (texel.j + 1) : map.node(texel.graph.nodes[t.bottom_node]).y;
-        if (y1 > y0) slabs.push_back({&t, y0, y1});
+        const Extent1 y = sides.levels(t);
+        if (y.size() > 0) slabs.push_back({&t, y});
     }
     return slabs;
 }
@@ -158,20 +151,20 @@ std::vector<QuadraturePoint> quadrature(const PlanarMap& map, const TexelMap& te
     constexpr int kLevels = 8;
     const Grid& g = map.grid();
     const auto px = static_cast<double>(g.px), py = static_cast<double>(g.py);
-    const double left = px * texel.i, right = left + px;
-    const std::vector<Slab> slabs = slabs_of(map, texel, features, r);
+    const TrapezoidSides sides(map, texel);
+    const std::vector<Slab> slabs = slabs_of(sides, texel, features, r);
     double top = INFINITY, bottom = -INFINITY;
     for (const Slab& s : slabs)
-        top = std::min(top, s.y0), bottom = std::max(bottom, s.y1);
+        top = std::min(top, s.y.low), bottom = std::max(bottom, s.y.high);
     std::vector<QuadraturePoint> points;
     std::vector<std::pair<double, double>> stretches;
     for (int k = 0; k < kLevels; ++k) {
         const double y = top + (k + 0.5) / kLevels * (bottom - top);
         stretches.clear();
         for (const Slab& s : slabs) {
-            if (!(s.y0 <= y && y < s.y1)) continue;
-            stretches.emplace_back(x_on(map, texel, s.trapezoid->left, y, left),
-                                   x_on(map, texel, s.trapezoid->right, y, right));
+            if (!(s.y.low <= y && y < s.y.high)) continue;
+            const Extent1 x = sides.at(*s.trapezoid, y);
+            stretches.emplace_back(x.low, x.high);
         }
         std::sort(stretches.begin(), stretches.end());
         for (std::size_t n = 0; n < stretches.size();) {

@@ -3,27 +3,17 @@
 
 #include <algorithm>
 
+#include "compiler/gauss.h"
 #include "compiler/measure/colors.h"
 #include "compiler/measure/visible_edges.h"
 #include "compiler/planar/trapezoid_area.h"
+#include "compiler/planar/trapezoid_sides.h"
 #include "compiler/scene/lattice.h"
 
 namespace fetexc::measure {
 namespace {
 
 constexpr std::uint32_t kMaxSize = 16384; ///< as for assets
-
-struct GaussPoint {
-    double at, weight;
-};
-constexpr double kGaussReach = 0.38729833462074170; ///< √15 / 10: three points are exact for degree 5
-constexpr std::array<GaussPoint, 3> kGauss{
-    {{0.5 - kGaussReach, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + kGaussReach, 5.0 / 18}}};
-
-/// Sides and ends of a trapezoid in planar space.
-struct Span {
-    double lo = 0, hi = 0;
-};
 
 class Integrator {
   public:
@@ -33,36 +23,32 @@ class Integrator {
 
     [[nodiscard]] Rgba whole(std::uint32_t i, std::uint32_t j, ResultId result) const {
         if (compositor_.is_solid(result)) return compositor_.color(result, {});
-        const Span x = side(i, grid_.px), y = side(j, grid_.py);
+        const TrapezoidSides sides(map_, i, j);
         Rgba sum;
         for (const GaussPoint& v : kGauss)
-            add(sum, along_level(result, lerp(y, v.at), x), v.weight);
+            add(sum, along_level(result, sides.rows().at(v.at), sides.columns()), v.weight);
         return sum;
     }
 
     [[nodiscard]] Rgba parts(const TexelMap& texel) const {
         TrapezoidAreas areas(map_, texel);
+        const TrapezoidSides sides(map_, texel);
         Rgba sum;
         for (const Trapezoid& t : texel.sweep.trapezoids) {
             const double share = areas.of(t).area / area_;
             if (!(share > 0)) continue;
             const ResultId result = texel.results[t.face];
-            add(sum, compositor_.is_solid(result) ? compositor_.color(result, {}) : mean(texel, t, result), share);
+            add(sum, compositor_.is_solid(result) ? compositor_.color(result, {}) : mean(sides, t, result), share);
         }
         return sum;
     }
 
   private:
-    static double lerp(const Span& s, double t) { return s.lo + t * (s.hi - s.lo); }
-    static Span side(std::uint32_t index, std::int64_t pitch) {
-        return {static_cast<double>(index * pitch), static_cast<double>((index + 1) * pitch)};
-    }
-
     /// Mean of a paint along a level line.
-    [[nodiscard]] Rgba along_level(ResultId result, double y, const Span& x) const {
+    [[nodiscard]] Rgba along_level(ResultId result, double y, const Extent1& x) const {
         Rgba sum;
         for (const GaussPoint& u : kGauss)
-            add(sum, color_at(result, lerp(x, u.at), y), u.weight);
+            add(sum, color_at(result, x.at(u.at), y), u.weight);
         return sum;
     }
 
@@ -72,29 +58,20 @@ class Integrator {
     }
 
     /// Three levels, weighted by their lengths, three points on each.
-    [[nodiscard]] Rgba mean(const TexelMap& texel, const Trapezoid& t, ResultId result) const {
-        const Span x = side(texel.i, grid_.px);
-        Span y = side(texel.j, grid_.py);
-        if (t.top_node != kNone) y.lo = map_.node(texel.graph.nodes[t.top_node]).y;
-        if (t.bottom_node != kNone) y.hi = map_.node(texel.graph.nodes[t.bottom_node]).y;
+    [[nodiscard]] Rgba mean(const TrapezoidSides& sides, const Trapezoid& t, ResultId result) const {
+        const Extent1 y = sides.levels(t);
         Rgba sum;
         double weight = 0;
         for (const GaussPoint& v : kGauss) {
-            const double level = lerp(y, v.at);
-            const Span line{x_on(texel, t.left, level, x.lo), x_on(texel, t.right, level, x.hi)};
-            const double w = v.weight * std::max(line.hi - line.lo, 0.0);
+            const double level = y.at(v.at);
+            const Extent1 line = sides.at(t, level);
+            const double w = v.weight * std::max(line.size(), 0.0);
             if (w == 0) continue;
             add(sum, along_level(result, level, line), w);
             weight += w;
         }
-        if (weight == 0) return color_at(result, lerp(x, 0.5), lerp(y, 0.5));
+        if (weight == 0) return color_at(result, sides.columns().at(0.5), y.at(0.5));
         return {sum.r / weight, sum.g / weight, sum.b / weight, sum.a / weight};
-    }
-
-    [[nodiscard]] double x_on(const TexelMap& texel, std::uint32_t edge, double y, double side) const {
-        if (edge == kNone) return side;
-        const Stretch s = map_.stretch_of(texel.sub_edges[texel.graph.edges[edge].sub]);
-        return value_double(*s.curve, Axis::X, parameter_at(*s.curve, Axis::Y, s.range, s.y_increasing, y).mid());
     }
 
     const Scene& scene_;
