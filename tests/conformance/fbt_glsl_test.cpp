@@ -128,10 +128,14 @@ TEST_P(Conformance, decodesEveryHalf) {
     constexpr std::uint32_t columns = 256, rows = fetex::kFbtHalfInfinity / columns;
     FbtTexture texture;
     texture.sample_format = fetex::FbtSampleFormat::Rgba16F;
-    texture.width = columns - 1, texture.height = rows - 1;
+    texture.width = columns, texture.height = rows; // the far border isn't sampled exactly
     texture.texels.assign(std::size_t{texture.width} * texture.height, shaded_texel({fetex::kFbtModelCorners, 0}));
-    for (std::uint32_t half = 0; half < columns * rows; ++half)
-        texture.corners.insert(texture.corners.end(), {half | half << 16, half | fetex::kFbtHalfOne << 16});
+    for (std::uint32_t j = 0; j <= rows; ++j) {
+        for (std::uint32_t i = 0; i <= columns; ++i) {
+            const std::uint32_t half = i < columns && j < rows ? j * columns + i : 0;
+            texture.corners.insert(texture.corners.end(), {half | half << 16, half | fetex::kFbtHalfOne << 16});
+        }
+    }
     texture.traits = fetex::fbt_traits(texture);
     ASSERT_TRUE(fetex::validate_fbt(texture).empty()) << fetex::validate_fbt(texture)[0].message;
     ASSERT_FALSE(renderer_->upload(texture).has_value());
@@ -223,10 +227,10 @@ TEST_P(Conformance, drawsWhatTouchesTheFarBorder) {
             const auto pieces = static_cast<std::uint32_t>(points.size() - 1) / c.degree;
             FbtTexture t;
             t.width = t.height = 1;
-            t.texels = {
-                fetex::kFbtKindSingle << 30 |
-                append_list(t.records, {{c.degree, ray, pieces, points, 0, true, {fetex::kFbtModelSolid, 0xff0000ff}}},
-                            {fetex::kFbtModelSolid, 0xffff0000})};
+            t.texels = {fetex::kFbtKindSingle << 30 |
+                        append_list(t.records,
+                                    {{c.degree, ray, pieces, points, 0, true, {fetex::kFbtModelSolid, 0xff0000ff}}},
+                                    {fetex::kFbtModelSolid, 0xffff0000})};
             t.traits = fetex::fbt_traits(t);
             ASSERT_TRUE(fetex::validate_fbt(t).empty()) << fetex::validate_fbt(t)[0].message;
             ASSERT_FALSE(renderer_->upload(t).has_value());
