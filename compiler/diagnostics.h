@@ -80,6 +80,8 @@ inline constexpr int kSliversCollapsed = 4101;     ///< parts of the picture, ev
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
 inline constexpr int kFbtTooLarge = 5002;    ///< more records than the format can address
 inline constexpr int kFbtBudget = 5003;      ///< no size fits in --max-bytes
+inline constexpr int kNotTwoColors = 5011;   ///< a bi-level texture of a drawing that hasn't two colours needs --silhouette
+inline constexpr int kNoSuchElement = 5012;  ///< --silhouette names an element that isn't drawn
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

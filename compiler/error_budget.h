@@ -267,4 +267,49 @@ inline constexpr double kShareNoise = 8 * 0x1p14 * kEvaluationError;
 /// down by about as much (1/√400: of 512² points, a few hundred are on the wrong side).
 inline constexpr double kEqualErrorPrecision = 0.05;
 
+/// Texels: a bi-level texture's outline is cut into chords that miss it by at most this: 1/16 of the least wrong area
+/// that a texture of 8 bits can have along an edge (half a step, 1/510 of the two texels over which values change).
+inline constexpr double kOutlineChord = 0x1p-12;
+
+/// Radians between two pieces of an outline: more is a corner. Chords of a round edge turn by less: within kOutlineChord
+/// a circle of half a texel, the roundest that a texture can hold, takes chords of 0.13.
+inline constexpr double kCornerTurn = 0.15;
+
+/// Square texels: two segments that share a point are equally far from what is nearest to the point.
+inline constexpr double kSameDistance = 1e-12;
+
+/// Texels from the outline to where the values of a fit's start reach 0 and 1, of one channel and of several. Of 1, 1.5
+/// and 2 those that left the least wrong area on six shapes (compiler/bilevel/README.md).
+inline constexpr double kSeedReach = 1.5;
+inline constexpr double kSeedReachOfSeveral = 1;
+
+/// Texels: how far from its segments a channel's values still follow them.
+inline constexpr double kSeedSearch = 2;
+
+/// Ceres' trust region, and the relative change of the cost at which a fit ends.
+inline constexpr double kFitTrustRadius = 10;
+inline constexpr double kFitTolerance = 1e-4;
+
+/// Ceres' damping of a value counts at least so much as its own weight; a value that the outline crosses beside has some
+/// units of it. Of 0.05 to 10 what left the least wrong area on six shapes.
+inline constexpr double kFitLeastDiagonal = 0.2;
+
+/// Texels: distances of contours up to this count by their squares, larger ones by themselves (Huber's loss).
+inline constexpr double kFitExactTo = 0.01;
+
+/// Per texel: contours where values change less are moved as if they changed so much.
+inline constexpr double kFitLeastSlope = 0.1;
+
+/// Of a crossing on a line with several in one cell, where one value can't be right for all.
+inline constexpr double kFitCrowdedWeight = 0.3;
+
+/// The paper's system: part of a position's weight that is left halfway between level and upright, and the weight of the
+/// gradient's length, so that the values have a scale.
+inline constexpr double kFitPositionFloor = 0.05;
+inline constexpr double kFitSteepness = 0.1;
+inline constexpr int kFitPaperSteps = 5;
+
+/// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
+inline constexpr double kWorthAByte = 1e-7;
+
 } // namespace fetexc::budget

@@ -5,7 +5,7 @@
 
 #include "compiler/gauss.h"
 #include "compiler/measure/colors.h"
-#include "compiler/measure/visible_edges.h"
+#include "compiler/planar/visible_edges.h"
 #include "compiler/planar/trapezoid_area.h"
 #include "compiler/planar/trapezoid_sides.h"
 #include "compiler/scene/lattice.h"

@@ -3,7 +3,7 @@
 
 #include "compiler/measure/edge_index.h"
 #include "compiler/measure/exact_picture.h"
-#include "compiler/measure/visible_edges.h"
+#include "compiler/planar/visible_edges.h"
 #include "compiler/scene/ground_truth.h"
 
 namespace fetexc::measure {

@@ -11,24 +11,11 @@
 #include <vector>
 
 #include "compiler/measure/picture.h"
+#include "compiler/planar/visible_edges.h"
 #include "compiler/result.h"
 #include "compiler/scene/compositor.h"
 
 namespace fetexc::measure {
-
-/// Width units: x right, y down; the canvas is [0,1] × [0, height / width]. Distances are Euclidean in them.
-struct WidthPoint {
-    double x = 0, y = 0;
-};
-
-/// Part of a curve inside the canvas with different results on its sides, monotone in x and y, following the curve
-/// with growing t. Neighbouring parts share their end points bit for bit. What runs along the border of the canvas is
-/// no edge.
-struct VisibleEdge {
-    int degree = 1;
-    std::array<WidthPoint, 4> p{};
-    ResultId left = 0, right = 0; ///< left: towards (y', −x'), which is left on the screen when moving up
-};
 
 /// Nearest point of a visible edge.
 struct EdgePoint {

@@ -2,15 +2,30 @@
 /// A planar map walked texel by texel, and the edges of its texels with different results on their sides.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "compiler/diagnostics.h"
-#include "compiler/measure/truth.h"
 #include "compiler/parallel.h"
 #include "compiler/planar/planar_map.h"
 #include "compiler/planar/texel_map.h"
 
-namespace fetexc::measure {
+namespace fetexc {
+
+/// Width units: x right, y down; the canvas is [0,1] × [0, height / width]. Distances are Euclidean in them.
+struct WidthPoint {
+    double x = 0, y = 0;
+};
+
+/// Part of a curve inside the canvas with different results on its sides, monotone in x and y, following the curve
+/// with growing t. Neighbouring parts share their end points bit for bit. What runs along the border of the canvas is
+/// no edge.
+struct VisibleEdge {
+    int degree = 1;
+    std::array<WidthPoint, 4> p{};
+    ResultId left = 0, right = 0; ///< left: towards (y', −x'), which is left on the screen when moving up
+};
 
 /// Rows in parallel, each from left to right: empty(i, j, result) for a texel without edges, full(texel) for another.
 /// False: the map contradicts itself somewhere.
@@ -41,4 +56,4 @@ Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& c
 
 [[nodiscard]] Error inconsistent_map();
 
-} // namespace fetexc::measure
+} // namespace fetexc

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compiler/measure/visible_edges.h"
+#include "compiler/planar/visible_edges.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace fetexc::measure {
+namespace fetexc {
 namespace {
 
 constexpr std::uint32_t kCells = 127; ///< on the longer side
@@ -63,7 +63,7 @@ class EdgeWriter {
 
 Error inconsistent_map() {
     return {ErrorClass::Runtime, diag::kPlanarInconsistent,
-            "the planar map contradicts itself; please report this file", "while measuring errors"};
+            "the planar map contradicts itself; please report this file", ""};
 }
 
 Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads) {
@@ -85,4 +85,4 @@ Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& c
     return edges;
 }
 
-} // namespace fetexc::measure
+} // namespace fetexc

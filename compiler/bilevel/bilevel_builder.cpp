@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/bilevel/bilevel_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/bilevel/seed.h"
+#include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
+#include "compiler/parallel.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::BilevelRule;
+
+/// Scan lines a texel: of the contour's fit and of the first bytes; of the last ones; of the figure in the report.
+struct Lines {
+    std::uint32_t fit, polish, verify;
+};
+constexpr Lines kLinesOfOne{8, 16, 64}, kLinesOfSeveral{16, 32, 64};
+constexpr int kContourSteps = 12, kSweeps = 60, kPairSweeps = 6;
+constexpr std::uint32_t kMaxSize = 16384;
+
+struct Fitted {
+    BilevelFit fit;
+    std::vector<std::uint8_t> values;
+};
+
+/// One texture of one rule.
+Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, MidGreys greys) {
+    Fitted out;
+    out.fit.rule = rule, out.fit.width = size.width, out.fit.height = size.height;
+    const std::vector<OutlineSegment> outline = outline_in_texels(silhouette, size.width, size.height);
+    const Lines lines = rule == BilevelRule::Single ? kLinesOfOne : kLinesOfSeveral;
+    const ScannedOutline scanned(silhouette, outline, size.width, size.height, lines.fit);
+    const ThresholdCells cells(scanned, size.width, size.height, rule);
+    out.fit.texels_fitted = cells.texels().size();
+    out.fit.cells = static_cast<std::uint64_t>(
+        std::ranges::count_if(cells.cells(), [](const Cell& c) { return c.holds_outline; }));
+    const double reach = rule == BilevelRule::Single ? budget::kSeedReach : budget::kSeedReachOfSeveral;
+    out.values = seed_values(cells, scanned, outline, reach);
+    if (rule == BilevelRule::Single) {
+        std::vector<std::uint8_t> paper = out.values;
+        fit_intersections_and_angles(cells, outline, paper);
+        out.fit.paper_start = cells.wrong_area(paper) < cells.wrong_area(out.values);
+        if (out.fit.paper_start) out.values = std::move(paper);
+    }
+    fit_contour(cells, out.values, kContourSteps, out.fit.trace);
+    out.fit.contour_steps = out.fit.trace.size();
+    out.fit.bytes_tried = fit_bytes(cells, out.values, greys, {kSweeps, 0}, out.fit.trace);
+    const ScannedOutline finer(silhouette, outline, size.width, size.height, lines.polish);
+    const ThresholdCells fine(finer, size.width, size.height, rule);
+    out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, kPairSweeps}, out.fit.trace);
+    const double area = static_cast<double>(size.width) * size.height;
+    for (double& wrong : out.fit.trace)
+        wrong /= area;
+    const ScannedOutline finest(silhouette, outline, size.width, size.height, lines.verify);
+    out.fit.wrong = ThresholdCells(finest, size.width, size.height, rule).wrong_area(out.values) / area;
+    return out;
+}
+
+/// As many bytes in more channels.
+GridSize shrunk(GridSize size, std::uint32_t channels) {
+    const double factor = 1 / std::sqrt(static_cast<double>(channels));
+    const auto side = [&](std::uint32_t n) { return std::max(1U, static_cast<std::uint32_t>((n + 0.7) * factor)); };
+    return {side(size.width), side(size.height)};
+}
+
+} // namespace
+
+Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const BilevelOptions& options,
+                                     const ProgressSink& progress) {
+    const GridSize size = options.size;
+    if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize)
+        return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
+    std::vector<BilevelRule> rules;
+    for (const BilevelRule rule : {BilevelRule::Single, BilevelRule::Min, BilevelRule::Max, BilevelRule::Median}) {
+        if (options.channels == 0 || options.channels == fetex::bilevel_channels(rule)) rules.push_back(rule);
+    }
+    if (progress) progress("fit", 0);
+    std::vector<Fitted> fits(rules.size());
+    parallel_for(rules.size(), options.threads, [&](std::size_t k) {
+        const std::uint32_t channels = fetex::bilevel_channels(rules[k]);
+        fits[k] = fit_rule(silhouette, options.exact_size ? size : shrunk(size, channels), rules[k], options.greys);
+    });
+    std::stable_sort(fits.begin(), fits.end(),
+                     [](const Fitted& a, const Fitted& b) { return a.fit.wrong < b.fit.wrong; });
+    BilevelBuild out;
+    fetex::BilevelTexture& t = out.texture;
+    t.width = fits[0].fit.width, t.height = fits[0].fit.height;
+    t.rule = fits[0].fit.rule, t.channels = fetex::bilevel_channels(t.rule);
+    t.texels = std::move(fits[0].values);
+    for (Fitted& f : fits)
+        out.stats.fits.push_back(std::move(f.fit));
+    out.stats.edges = silhouette.edges.size(), out.stats.edges_varying = silhouette.edges_varying;
+    return out;
+}
+
+} // namespace fetexc

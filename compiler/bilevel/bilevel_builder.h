@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Bi-level textures (Loviscach 2005): a silhouette fitted by a small texture whose interpolation is cut at one half.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/bilevel/discrete_fit.h"
+#include "compiler/bilevel/silhouette.h"
+#include "compiler/compile.h"
+#include "formats/bilevel.h"
+
+namespace fetexc {
+
+struct BilevelOptions {
+    GridSize size;              ///< of a texture of one channel; those of more channels have as many bytes, so fewer texels
+    std::uint32_t channels = 0; ///< 1, 2, 3; 0: whichever gets the least area wrong
+    bool exact_size = false;    ///< the size is in texels, whatever the channels
+    MidGreys greys = MidGreys::Allow;
+    bool mips = false;
+    unsigned threads = 1; ///< 0: all; never changes a byte
+};
+
+/// Of one fit.
+struct BilevelFit {
+    fetex::BilevelRule rule = fetex::BilevelRule::Single;
+    std::uint32_t width = 0, height = 0;
+    std::uint64_t cells = 0, texels_fitted = 0; ///< with some of the outline; at their corners
+    bool paper_start = false;                   ///< the paper's equations were the better start
+    FitTrace trace;                             ///< part of the canvas that is wrong, after each step (contour, then bytes)
+    std::uint64_t contour_steps = 0, bytes_tried = 0;
+    double wrong = 0; ///< part of the canvas, along finer lines
+};
+struct BilevelStats {
+    std::vector<BilevelFit> fits; ///< the chosen one first
+    std::uint64_t edges = 0, edges_varying = 0;
+    std::uint64_t parts = 0, parts_lost = 0, parts_false = 0; ///< connected parts of the outline, of above and below
+    std::uint64_t thin_cells = 0; ///< cells of the outline that a line crosses more than once: thinner than a texel
+    std::uint64_t gpu_bytes = 0;
+};
+struct BilevelBuild {
+    fetex::BilevelTexture texture;
+    BilevelStats stats;
+};
+
+/// Errors: size out of range.
+Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const BilevelOptions& options,
+                                     const ProgressSink& progress = {});
+
+} // namespace fetexc

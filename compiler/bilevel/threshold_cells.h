@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How much of the canvas a bi-level texture gets wrong, exactly along scan lines, and where.
+///
+/// A *cell* lies between four texel centres (at the border: a centre and the border); there the texture is bilinear, so
+/// linear along a scan line: where it crosses one half is known, and so is the length on which it and the outline
+/// disagree. Each cell is scanned along rows or along columns, whichever the outline in it crosses more often.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiler/bilevel/scan_lines.h"
+#include "formats/bilevel.h"
+
+namespace fetexc {
+
+/// A scan line's part in a cell. Local frame of the cell: 0…1 from centre to centre, `at` along the line, `across`
+/// across it.
+struct CellLine {
+    float across = 0;
+    bool above_first = false;      ///< at the part's beginning
+    std::uint32_t first = 0;       ///< in the crossings
+    std::uint32_t crossings = 0;
+};
+
+struct Cell {
+    std::uint32_t column = 0, row = 0; ///< between the centres of texels column − 1 and column, row − 1 and row
+    bool along_rows = true;
+    float low = 0, high = 1; ///< of the lines: 1/2 where the cell is half a cell
+    std::uint32_t first_line = 0, lines = 0;
+    bool holds_outline = false;
+};
+
+/// Texels at the corners of a cell, in the order (0,0), (1,0), (0,1), (1,1); those at the border are repeated.
+using CellTexels = std::array<std::uint32_t, 4>;
+
+/// Values of a rule's channels on a line: at its 0 and its 1.
+struct LineValues {
+    std::array<float, 3> from{}, to{};
+};
+
+class ThresholdCells {
+  public:
+    ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height, fetex::BilevelRule rule);
+
+    [[nodiscard]] std::uint32_t width() const { return width_; }
+    [[nodiscard]] std::uint32_t height() const { return height_; }
+    [[nodiscard]] fetex::BilevelRule rule() const { return rule_; }
+    [[nodiscard]] std::uint32_t channels() const { return channels_; }
+    /// Texels at corners of cells that hold some of the outline; ascending. No other's value matters.
+    [[nodiscard]] std::span<const std::uint32_t> texels() const { return texels_; }
+    /// Cells with such a texel.
+    [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
+    [[nodiscard]] std::span<const CellLine> lines(const Cell& c) const {
+        return std::span(lines_).subspan(c.first_line, c.lines);
+    }
+    [[nodiscard]] std::span<const float> crossings(const CellLine& l) const {
+        return std::span(crossings_).subspan(l.first, l.crossings);
+    }
+    [[nodiscard]] CellTexels corners(const Cell& c) const;
+    [[nodiscard]] double line_width() const { return 1.0 / per_texel_; }
+
+    /// Square texels on which the texture and the outline disagree. values: channels() bytes a texel of the texture.
+    [[nodiscard]] double wrong_area(std::span<const std::uint8_t> values) const;
+    /// The same in the cells around a texel's centre.
+    [[nodiscard]] double wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel) const;
+    /// The same around two texels, one of the cells' and any within one column and row of it.
+    [[nodiscard]] double wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel,
+                                           std::uint32_t other) const;
+    [[nodiscard]] double wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const;
+
+  private:
+    void choose_texels(const std::vector<std::uint32_t>& across_rows, const std::vector<std::uint32_t>& across_columns);
+    void scan(Cell& c, const ScannedOutline& scanned);
+
+    std::uint32_t width_, height_, per_texel_;
+    fetex::BilevelRule rule_;
+    std::uint32_t channels_;
+    std::vector<std::uint32_t> texels_;
+    std::vector<Cell> cells_;
+    std::vector<std::uint32_t> cell_at_; ///< kNone: of no such texel
+    std::vector<CellLine> lines_;
+    std::vector<float> crossings_;
+};
+
+/// Where the texture crosses one half on a line, in order, as the rule has it.
+struct TextureCrossings {
+    bool above_first = false;
+    std::uint32_t count = 0;
+    std::array<float, 3> at{};
+    std::array<std::uint8_t, 3> channel{}; ///< which of them does
+};
+template <fetex::BilevelRule Rule> TextureCrossings texture_crossings(const LineValues& v, float low, float high);
+/// The same for a rule known when run.
+TextureCrossings texture_crossings(fetex::BilevelRule rule, const LineValues& v, float low, float high);
+
+} // namespace fetexc
