@@ -54,9 +54,11 @@
 #ifndef FETEX_BILEVEL_FWIDTH
 #define FETEX_BILEVEL_FWIDTH(t) fwidth(t)
 #endif
-// One fetch gets the same channel of four texels.
+// One fetch gets a channel of four texels. For three channels four fetches of a texel are not dearer.
 #ifndef FETEX_BILEVEL_GATHER
 #if FETEX_BILEVEL_CHANNELS == 1 && (__VERSION__ >= 400 || defined(GL_ARB_texture_gather))
+#define FETEX_BILEVEL_GATHER 1
+#elif FETEX_BILEVEL_CHANNELS == 2 && (__VERSION__ >= 400 || defined(GL_ARB_gpu_shader5))
 #define FETEX_BILEVEL_GATHER 1
 #else
 #define FETEX_BILEVEL_GATHER 0
@@ -120,8 +122,15 @@ FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local, vec2 pixel) {
     FETEX_BILEVEL_VALUES upperLeft, upperRight, lowerLeft, lowerRight;
 #if FETEX_BILEVEL_GATHER
     // Between the four, where rounding can't reach another square. Edges are clamped by the sampler.
-    vec4 four = textureGather(fetexBilevelTexels, (vec2(base) + whole + 1.0) / vec2(fetexBilevelSize()));
+    vec2 between = (vec2(base) + whole + 1.0) / vec2(fetexBilevelSize());
+    vec4 four = textureGather(fetexBilevelTexels, between);
+#if FETEX_BILEVEL_CHANNELS == 1
     upperLeft = four.w, upperRight = four.z, lowerLeft = four.x, lowerRight = four.y;
+#else
+    vec4 second = textureGather(fetexBilevelTexels, between, 1);
+    upperLeft = vec2(four.w, second.w), upperRight = vec2(four.z, second.z);
+    lowerLeft = vec2(four.x, second.x), lowerRight = vec2(four.y, second.y);
+#endif
 #else
     ivec2 last = fetexBilevelSize() - 1, corner = base + ivec2(whole);
     ivec2 a = clamp(corner, ivec2(0), last), b = clamp(corner + 1, ivec2(0), last);

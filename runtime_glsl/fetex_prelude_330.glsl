@@ -6,3 +6,6 @@
 #ifdef GL_ARB_texture_gather
 #extension GL_ARB_texture_gather : enable
 #endif
+#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : enable
+#endif
