@@ -2,7 +2,7 @@
 /// Bi-level texture: a drawing of two colours as a small grey texture whose interpolation, cut at 1/2, is the drawing;
 /// the layout and the CPU reference sampler. J. Loviscach, "Efficient Magnification of Bi-Level Textures", 2005. More
 /// than one channel is our answer to the paper's future work (sharp corners). Normative text: formats/SPEC.md,
-/// sections 2.4, 6 and 7.
+/// sections 2.4 and 6.
 ///
 /// Frames: texel space, x right, y down, texel (i,j) covers [i,i+1)×[j,j+1), [0,W]×[0,H] is the drawing. A texel's
 /// value stands in its middle, (i+1/2, j+1/2); between the middles the values are interpolated bilinearly, in full
@@ -80,10 +80,10 @@ FbtColor bilevel_sample_area_local(const BilevelTexture& texture, std::uint32_t 
 /// The coverage, 0…1, of level k = 1 … n at a point of texel space, bilinear. Precondition: the texture has mips.
 double bilevel_mip_coverage(const BilevelTexture& texture, std::uint32_t k, double x, double y);
 
-/// The colour of a square pixel of `texels_per_pixel` texels a side around a point. Trilinear: the levels between whose
-/// scales (fbt_mip_scale) it lies, mixed by its logarithm, as fbt_sample_mip does. Level 0 counts with its
-/// bilevel_coverage over a pixel of side min(texels_per_pixel, 1). Continuous in texels_per_pixel. Precondition: the
-/// texture has mips.
-FbtColor bilevel_sample_mip(const BilevelTexture& texture, double x, double y, double texels_per_pixel);
+/// The colour of a pixel of any size around a point, sides as in BilevelPixel but without its upper bound. Trilinear:
+/// the levels between whose scales (fbt_mip_scale) the longer side lies, mixed by its logarithm, as fbt_sample_mip
+/// does. Level 0 counts with its bilevel_coverage over the pixel, sides of at most 1. Continuous in the sides.
+/// Precondition: the texture has mips.
+FbtColor bilevel_sample_mip(const BilevelTexture& texture, double x, double y, BilevelPixel pixel);
 
 } // namespace fetex

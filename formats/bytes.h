@@ -31,4 +31,25 @@ template <class T> void append_le(std::vector<std::uint8_t>& out, T value) {
         out.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
 }
 
+/// Words as the file has them.
+inline std::vector<std::uint8_t> to_bytes(std::span<const std::uint32_t> words) {
+    std::vector<std::uint8_t> bytes;
+    if constexpr (std::endian::native == std::endian::little) {
+        bytes.resize(words.size() * 4);
+        if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
+    } else {
+        for (const std::uint32_t word : words)
+            append_le(bytes, word);
+    }
+    return bytes;
+}
+
+/// Its inverse; up to three bytes left over are ignored.
+inline std::vector<std::uint32_t> to_words(ByteSpan bytes) {
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    for (std::size_t k = 0; k < words.size(); ++k)
+        words[k] = load_le<std::uint32_t>(bytes, 4 * k);
+    return words;
+}
+
 } // namespace fetex

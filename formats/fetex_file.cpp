@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #include "formats/fetex_file.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-#include <deque>
-
+#include "formats/bilevel_chunks.h"
 #include "formats/fbt_mip.h"
 #include "formats/fbt_samples.h"
 #include "formats/validate.h"
+#include <algorithm>
 
 namespace fetex {
 namespace {
@@ -19,28 +15,10 @@ constexpr FourCc kMeta = fourcc("META"), kFbtHeader = fourcc("FBTH"), kFbtTexels
 constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
 constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, kFlagPatches = 8, kFlagShared = 16,
                         kFlagsKnown = 31;
+/// As write_file numbers them.
+constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1;
 
 using Words = std::vector<std::uint32_t>;
-
-std::vector<std::uint8_t> to_bytes(std::span<const std::uint32_t> words) {
-    std::vector<std::uint8_t> bytes(words.size() * 4);
-    if constexpr (std::endian::native == std::endian::little) {
-        if (!words.empty()) std::memcpy(bytes.data(), words.data(), bytes.size());
-    } else {
-        for (std::size_t k = 0; k < words.size(); ++k) {
-            for (std::size_t i = 0; i < 4; ++i)
-                bytes[4 * k + i] = static_cast<std::uint8_t>(words[k] >> (8 * i));
-        }
-    }
-    return bytes;
-}
-
-Words to_words(ByteSpan bytes) {
-    Words words(bytes.size() / 4);
-    for (std::size_t k = 0; k < words.size(); ++k)
-        words[k] = load_le<std::uint32_t>(bytes, 4 * k);
-    return words;
-}
 
 /// Length of the UTF-8 sequence at `at`, 0 if there is none: no overlong forms, surrogates or values past U+10FFFF.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
@@ -131,15 +109,6 @@ Words fbt_header_words(const FbtTexture& t) {
                    t.traits.max_depth};
     words.resize(kFbtHeaderWords, 0);
     return words;
-}
-
-/// Payloads that aren't anywhere else as the file has them.
-using Payloads = std::deque<std::vector<std::uint8_t>>;
-
-ByteSpan as_bytes(std::span<const std::uint32_t> words, Payloads& payloads) {
-    if constexpr (std::endian::native == std::endian::little)
-        return {reinterpret_cast<const std::uint8_t*>(words.data()), words.size() * 4};
-    return payloads.emplace_back(to_bytes(words));
 }
 
 void append_fbt_chunks(std::vector<ChunkView>& chunks, const FbtTexture& texture, std::uint8_t representation,
@@ -274,13 +243,15 @@ class Reader {
             if (auto bad = sort_in(chunk)) return findings_.push_back(std::move(*bad));
         if (metadata_)
             if (auto bad = read_metadata(out_.metadata, *metadata_)) return findings_.push_back(std::move(*bad));
-        read_fbt_chunks();
+        check_numbers();
+        if (findings_.empty()) read_fbt_chunks();
+        if (findings_.size() < limit_) read_bilevel_chunks();
     }
     std::vector<Finding> take() { return std::move(findings_); }
 
   private:
-    /// Level 0 of the known chunks, and any of FBTM; the FBT of the lowest representation number is the one that is
-    /// read.
+    /// Level 0 of the known chunks, and any of FBTM and BLVM; of each kind the representation of the lowest number is
+    /// the one that is read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
         const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
                          chunk.type == kFbtRecords;
@@ -294,6 +265,8 @@ class Reader {
                                          : group.records) = &chunk;
         } else if (chunk.type == kFbtMips && chunk.representation != kWholeFile) {
             fbts_[chunk.representation].mips[chunk.level] = &chunk;
+        } else if (is_bilevel_chunk(chunk)) {
+            bilevels_[chunk.representation].add(chunk);
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};
@@ -317,10 +290,35 @@ class Reader {
         if (findings_.empty()) out_.fbt = std::move(texture);
     }
 
+    /// A number is of one representation.
+    void check_numbers() {
+        for (const auto& [representation, chunks] : bilevels_) {
+            if (!fbts_.contains(representation)) continue;
+            return findings_.push_back(
+                {FindingCode::RepresentationKinds, 0,
+                 "representation " + std::to_string(representation) + " is an FBT and a bi-level texture at once"});
+        }
+    }
+
+    void read_bilevel_chunks() {
+        for (const auto& [representation, chunks] : bilevels_) {
+            if (!chunks.header || !chunks.texels)
+                return findings_.push_back(
+                    {FindingCode::MissingChunk, 0,
+                     "representation " + std::to_string(representation) + ": a bi-level texture needs BLVH and BLVT"});
+        }
+        if (bilevels_.empty()) return;
+        BilevelTexture texture;
+        std::vector<Finding> found = read_bilevel(texture, bilevels_.begin()->second, limit_ - findings_.size());
+        if (found.empty()) out_.bilevel = std::move(texture);
+        findings_.insert(findings_.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
+    }
+
     FetexFile& out_;
     std::size_t limit_;
     const ChunkView* metadata_ = nullptr;
     std::map<std::uint8_t, FbtChunks> fbts_;
+    std::map<std::uint8_t, BilevelChunks> bilevels_;
     std::vector<Finding> findings_;
 };
 
@@ -340,7 +338,8 @@ std::vector<std::uint8_t> write_file(const FetexFile& file) {
     Payloads payloads;
     std::vector<ChunkView> chunks;
     chunks.push_back({kMeta, 0, kWholeFile, 0, 0, payloads.emplace_back(write_metadata(file.metadata))});
-    if (file.fbt) append_fbt_chunks(chunks, *file.fbt, 0, payloads);
+    if (file.fbt) append_fbt_chunks(chunks, *file.fbt, kFbtRepresentation, payloads);
+    if (file.bilevel) append_bilevel_chunks(chunks, *file.bilevel, kBilevelRepresentation, !file.fbt, payloads);
     return write_container_of_views(chunks);
 }
 

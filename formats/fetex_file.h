@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/bilevel.h"
 #include "formats/container.h"
 #include "formats/fbt.h"
 
@@ -19,10 +20,11 @@ using Metadata = std::map<std::string, std::string>;
 struct FetexFile {
     Metadata metadata;
     std::optional<FbtTexture> fbt;
+    std::optional<BilevelTexture> bilevel = {};
 };
 
 /// The file's bytes, the same for the same content. Bytes that aren't UTF-8 in metadata become U+FFFD; empty keys are
-/// left out. Precondition: fbt passes validate_fbt.
+/// left out. Preconditions: fbt passes validate_fbt, bilevel validate_bilevel.
 std::vector<std::uint8_t> write_file(const FetexFile& file);
 
 /// Reads and validates everything; the first finding, or nullopt and a complete `out`. Unknown ancillary chunks are

@@ -7,7 +7,7 @@
 
 namespace fetex {
 
-/// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT.
+/// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture.
 enum class FindingCode : std::uint16_t {
     Truncated = 101,          ///< the file ends before its stated length
     BadMagic = 102,           ///< not a .fetex file, or mangled by a text transfer
@@ -26,10 +26,14 @@ enum class FindingCode : std::uint16_t {
     BadLength = 115, ///< stated length isn't the end of the last chunk
 
     UnknownCriticalChunk = 201,
-    BadMetadata = 202,     ///< META: counts, lengths, UTF-8, order of keys
-    MissingChunk = 203,    ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond
-    BadFbtHeader = 204,    ///< FBTH: length, reserved words, flags
-    FbtSizeMismatch = 205, ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
+    BadMetadata = 202,      ///< META: counts, lengths, UTF-8, order of keys
+    MissingChunk = 203,     ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
+                            ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round
+    BadFbtHeader = 204,     ///< FBTH: length, reserved words, flags
+    FbtSizeMismatch = 205,  ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
+    BadBilevelHeader = 206, ///< BLVH: length, dimensions, rule, reserved words
+    BilevelSizeMismatch = 207, ///< BLVT, BLVI or a level of BLVM has not the length that BLVH asks for
+    RepresentationKinds = 208, ///< one number has chunks of an FBT and of a bi-level texture
 
     FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
     FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque
@@ -51,9 +55,14 @@ enum class FindingCode : std::uint16_t {
     FbtModel = 1020,            ///< unknown model, or a shaded texel that is solid
     FbtSampleValue = 1022,      ///< a half that is negative, infinite or no number, or an alpha above 1
     FbtNesting = 1021,          ///< depths that aren't those of features right after what lies inside them
+
+    BilevelDimensions = 2001,       ///< width, height, sides of the image 1 … 16384; lengths of the arrays
+    BilevelRuleChannels = 2002,     ///< unknown rule, or not as many channels as it combines
+    BilevelNotPremultiplied = 2003, ///< a colour channel of below, above or the image exceeds alpha
 };
 
-/// One finding. offset: bytes from the start of the file, or, from validate_fbt, of the part the message names.
+/// One finding. offset: bytes from the start of the file, or, from validate_fbt and validate_bilevel, of the part the
+/// message names.
 struct Finding {
     FindingCode code{};
     std::uint64_t offset = 0;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// The full check of an FBT: a texture without findings can be sampled at any point, on the CPU and in GLSL, without an
-/// access out of range and without an unbounded loop, and decodes the same way on both.
+/// The full check of a representation: a texture without findings can be sampled at any point, on the CPU and in GLSL,
+/// without an access out of range and without an unbounded loop, and decodes the same way on both.
 #pragma once
 
 #include <vector>
 
+#include "formats/bilevel.h"
 #include "formats/fbt.h"
 #include "formats/findings.h"
 
@@ -23,5 +24,11 @@ std::vector<Finding> validate_fbt(const FbtTexture& texture, std::size_t limit =
 /// The traits a texture has; all corners count, and the mip chain.
 /// Safe on any content: parts that validate_fbt would refuse are left out.
 FbtTraits fbt_traits(const FbtTexture& texture);
+
+inline constexpr std::uint32_t kBilevelMaxSide = 16384; ///< of the texels, and of the image
+
+/// Findings, at most `limit`; offsets are bytes from the start of the header, the texels, the mips or the image, as the
+/// message says.
+std::vector<Finding> validate_bilevel(const BilevelTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex

@@ -62,6 +62,12 @@ FbtPixel area_of_sample(const ImageAxis& columns, const ImageAxis& rows) {
     return {half(columns), half(rows)};
 }
 
+/// The same as bilevel_sample_area takes it.
+BilevelPixel sides_of_sample(const ImageAxis& columns, const ImageAxis& rows) {
+    const auto side = [](const ImageAxis& axis) { return std::ldexp(static_cast<double>(axis.step()), -32); };
+    return {side(columns), side(rows)};
+}
+
 } // namespace
 
 std::vector<std::uint8_t> to_rgba8(const Image& image) {
@@ -101,6 +107,26 @@ Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const Ren
         const FbtColor c = size.filter != Filter::Point
                                ? fbt_sample_area_local(texture, column.base, row.base, column.local, row.local, pixel)
                                : fbt_sample_local(texture, column.base, row.base, column.local, row.local);
+        return {c.r, c.g, c.b, c.a};
+    });
+}
+
+Outcome<Image> render_cpu(const BilevelTexture& texture, const View& view, const RenderSize& size, unsigned threads) {
+    if (auto bad = check_view(view, size)) return *bad;
+    const bool mips = !texture.mips.empty() && wants_mips(view, size, texture.width, texture.height);
+    const std::uint32_t supersample = mips ? 1 : size.supersample;
+    const ImageAxis columns(view.x, view.w, texture.width, size.width, supersample);
+    const ImageAxis rows(view.y, view.h, texture.height, size.height, supersample);
+    const PixelSides sides = pixel_sides(view, size, texture.width, texture.height);
+    const BilevelPixel pixel = mips                           ? BilevelPixel{sides.x, sides.y}
+                               : size.filter == Filter::Point ? BilevelPixel{}
+                                                              : sides_of_sample(columns, rows);
+    const RenderSize drawn{size.width, size.height, supersample};
+    return render_samples(columns, rows, drawn, threads, [&](std::int64_t x, std::int64_t y) -> Rgba {
+        const BaseAndLocal column = base_and_local(x, texture.width), row = base_and_local(y, texture.height);
+        const FbtColor c =
+            mips ? bilevel_sample_mip(texture, column.base + column.local, row.base + row.local, pixel)
+                 : bilevel_sample_area_local(texture, column.base, row.base, column.local, row.local, pixel);
         return {c.r, c.g, c.b, c.a};
     });
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Draws an FBT, or a plain bitmap to compare it with, off screen. No GL library is linked: a back end is opened with
-/// dlopen when it is asked for. Every pixel centre is computed in 32.32 fixed point (sample_grid.h), on the GPU and on
-/// the CPU alike: a view may be as deep as wanted.
+/// Draws an FBT, a bi-level texture, or a plain bitmap to compare them with, off screen. No GL library is linked: a
+/// back end is opened with dlopen when it is asked for. Every pixel centre is computed in 32.32 fixed point
+/// (sample_grid.h), on the GPU and on the CPU alike: a view may be as deep as wanted.
 #pragma once
 
 #include <memory>
 #include <span>
 
+#include "formats/bilevel.h"
 #include "formats/fbt.h"
 #include "runtime_glsl/host/image.h"
 #include "runtime_glsl/host/shader_source.h"
@@ -39,7 +40,18 @@ enum class Sampler : std::uint8_t {
     FbtMips,  ///< the FBT's mip chain, whatever the view
     Bilinear, ///< the bitmap through the hardware's LINEAR filter: the plain lookup that costs are compared with
     Field,
+    Bilevel,     ///< the bi-level texture, cut hard
+    BilevelArea, ///< cut softly
+    BilevelMips, ///< its levels, whatever the view
 };
+
+/// How a bi-level texture is interpolated.
+enum class BilevelFetch : std::uint8_t {
+    Interpolated, ///< in the shader, in full precision
+    Filtered,     ///< one fetch through the hardware's LINEAR filter; right where linear_filter_error() is small enough
+};
+/// Of linear_filter_error(): edges stay within 2^-12 of the way between the least and the greatest byte.
+inline constexpr double kGoodFilterError = 0x1p-12;
 
 /// One channel, interpolated and cut at one half between two colours: a threshold texture or a distance field.
 struct Field {
@@ -67,6 +79,13 @@ class Renderer {
     RuntimeStatus upload(const FbtTexture& texture);
     Outcome<Image> render(const View& view, const RenderSize& size);
 
+    /// Uploads the texture and builds the shader that it needs. Precondition: the texture passes validate_bilevel.
+    RuntimeStatus upload_bilevel(const BilevelTexture& texture, BilevelFetch fetch = BilevelFetch::Interpolated);
+    /// Filter::Point is the hard cut, Area and ExactArea the soft one, which is one and the same.
+    Outcome<Image> render_bilevel(const View& view, const RenderSize& size);
+    /// The largest error of the hardware's LINEAR filter at 2^12 places between a black and a white texel of R8.
+    Outcome<double> linear_filter_error();
+
     /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     [[nodiscard]] bool has_bitmap() const;
@@ -93,6 +112,9 @@ class Renderer {
 /// The reference: the same pixel centres through fbt_sample_local, fbt_sample_area_local or fbt_sample_mip_aniso, in
 /// double. threads 0: all. Never depends on it.
 Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const RenderSize& size, unsigned threads = 0);
+/// The same through bilevel_sample_local, bilevel_sample_area_local or bilevel_sample_mip.
+Outcome<Image> render_cpu(const BilevelTexture& texture, const View& view, const RenderSize& size,
+                          unsigned threads = 0);
 /// As Renderer::render_bitmap, on the CPU.
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,
                                  std::uint32_t bitmap_height, const View& view, const RenderSize& size);

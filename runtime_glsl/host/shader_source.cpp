@@ -46,8 +46,15 @@ std::string mip_source(Dialect dialect, const FbtTexture& texture, bool texture_
     return features_source(dialect, texture, texture_buffer, fine) + file_text("fetex_fbt_mip.glsl");
 }
 
-std::string color(const float (&c)[4]) {
-    return "vec4(" + real(c[0]) + ", " + real(c[1]) + ", " + real(c[2]) + ", " + real(c[3]) + ")";
+std::string vec4_of(double r, double g, double b, double a) {
+    return "vec4(" + real(r) + ", " + real(g) + ", " + real(b) + ", " + real(a) + ")";
+}
+
+std::string color(const float (&c)[4]) { return vec4_of(c[0], c[1], c[2], c[3]); }
+
+std::string color(std::uint32_t rgba8) {
+    const auto channel = [&](unsigned shift) { return static_cast<double>(rgba8 >> shift & 0xffu) / 255; };
+    return vec4_of(channel(0), channel(8), channel(16), channel(24));
 }
 
 } // namespace
@@ -97,6 +104,38 @@ std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool
 std::string fbt_mip_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
     return mip_source(dialect, texture, texture_buffer, filter) + define("FETEX_VIEW_FOOTPRINT", 1) +
            file_text("view.glsl") + file_text("fbt_mip.frag.glsl");
+}
+
+std::string bilevel_specialisation(const BilevelTexture& texture, bool filtered) {
+    return define("FETEX_BILEVEL_RULE", static_cast<std::uint32_t>(texture.rule)) +
+           define("FETEX_BILEVEL_BELOW", color(texture.below)) + define("FETEX_BILEVEL_ABOVE", color(texture.above)) +
+           define("FETEX_BILEVEL_IMAGE", !texture.image.empty()) + define("FETEX_BILEVEL_MIPS", !texture.mips.empty()) +
+           define("FETEX_BILEVEL_FILTERED", filtered);
+}
+
+std::string bilevel_library_source(Dialect dialect, const BilevelTexture& texture, bool filtered) {
+    return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) + file_text("fetex_bilevel.glsl");
+}
+
+namespace {
+
+/// The view goes ahead: derivatives of the screen are of a pixel, and a sample is only a part of it.
+std::string bilevel_source(Dialect dialect, const BilevelTexture& texture, bool filtered, bool footprint) {
+    return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) +
+           define("FETEX_BILEVEL_FWIDTH(t)", "(fwidth(t) / float(fetexSupersample))") +
+           (footprint ? define("FETEX_VIEW_FOOTPRINT", 1) : "") + file_text("view.glsl") +
+           file_text("fetex_bilevel.glsl");
+}
+
+} // namespace
+
+std::string bilevel_fragment_source(Dialect dialect, const BilevelTexture& texture, Filter filter, bool filtered) {
+    return bilevel_source(dialect, texture, filtered, false) +
+           file_text(filter == Filter::Point ? "bilevel.frag.glsl" : "bilevel_area.frag.glsl");
+}
+
+std::string bilevel_mip_fragment_source(Dialect dialect, const BilevelTexture& texture, bool filtered) {
+    return bilevel_source(dialect, texture, filtered, true) + file_text("bilevel_mip.frag.glsl");
 }
 
 std::string bitmap_fragment_source(Dialect dialect) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "formats/bilevel.h"
 #include "formats/fbt.h"
 #include "runtime_glsl/host/image.h"
 
@@ -34,13 +35,25 @@ std::string fbt_specialisation(const FbtTraits& traits, FbtSampleFormat format =
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                Filter filter = Filter::Point);
 
-/// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bitmap in full
-/// precision, the bitmap through the hardware filter, and a one-channel field (renderer.h).
+/// The macros that fit fetex_bilevel.glsl to an asset, its colours among them. filtered: one fetch through the
+/// hardware's filter. Only the rule and the colours of the texture are looked at, and whether it has levels and an
+/// image.
+std::string bilevel_specialisation(const BilevelTexture& texture, bool filtered = false);
+
+/// Prelude, specialisation and fetex_bilevel.glsl, to be followed by a fragment shader.
+std::string bilevel_library_source(Dialect dialect, const BilevelTexture& texture, bool filtered = false);
+
+/// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bi-level
+/// texture without its levels (Point: cut hard, else softly) and with them, the bitmap in full precision, the bitmap
+/// through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                 Filter filter = Filter::Point);
 std::string fbt_mip_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                     Filter filter = Filter::Point);
+std::string bilevel_fragment_source(Dialect dialect, const BilevelTexture& texture, Filter filter = Filter::Point,
+                                    bool filtered = false);
+std::string bilevel_mip_fragment_source(Dialect dialect, const BilevelTexture& texture, bool filtered = false);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

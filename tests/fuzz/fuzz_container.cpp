@@ -44,6 +44,18 @@ void sample_everywhere(const fetex::FbtTexture& texture) {
                 if (!(fetex::fbt_sample_local(texture, i, j, f, 1 - f).a <= 1 + 1e-9)) std::abort();
 }
 
+void sample_everywhere(const fetex::BilevelTexture& texture) {
+    const std::uint32_t step_x = 1 + texture.width / 64, step_y = 1 + texture.height / 64;
+    for (std::uint32_t j = 0; j <= texture.height; j += step_y)
+        for (std::uint32_t i = 0; i <= texture.width; i += step_x)
+            for (const double side : {0.0, 0.3, 7.0}) {
+                const fetex::BilevelPixel pixel{side, side};
+                const auto color = texture.mips.empty() ? fetex::bilevel_sample_area(texture, i - 0.3, j + 0.6, pixel)
+                                                        : fetex::bilevel_sample_mip(texture, i - 0.3, j + 0.6, pixel);
+                if (!(color.a <= 1 + 1e-9)) std::abort();
+            }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -55,6 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (finding.has_value() == fetex::validate_file(bytes).empty()) std::abort(); // the two must agree
     if (finding) return 0;
     if (file.fbt && file.fbt->traits.max_entries < 4096) sample_everywhere(*file.fbt);
+    if (file.bilevel) sample_everywhere(*file.bilevel);
     fetex::FetexFile again; // what is taken survives another round
     if (fetex::read_file(again, fetex::write_file(file))) std::abort();
     return 0;

@@ -6,10 +6,13 @@
 #include "formats/fetex_file.h"
 #include "formats/validate.h"
 #include "tests/support/random_fbt.h"
+#include "tests/support/reseal.h"
 
 namespace fetex {
 namespace {
 
+using fetexc::test::reseal;
+using fetexc::test::store;
 using Bytes = std::vector<std::uint8_t>;
 
 FetexFile small_file() {
@@ -17,27 +20,6 @@ FetexFile small_file() {
     file.metadata = {{"source", "a.svg"}, {"tool", "test 1.0"}, {"ü", "\xe2\x82\xac"}};
     file.fbt = fetexc::test::random_fbt(21, {.width = 3, .height = 2});
     return file;
-}
-
-void store(Bytes& bytes, std::size_t at, std::uint64_t value, std::size_t size) {
-    for (std::size_t k = 0; k < size; ++k)
-        bytes[at + k] = static_cast<std::uint8_t>(value >> (8 * k));
-}
-
-/// Makes the checksums right again after a change to header, table or chunks: hostile bytes rather than damaged ones.
-void reseal(Bytes& bytes) {
-    const ByteSpan all(bytes);
-    const std::uint32_t count =
-        std::min(load_le<std::uint32_t>(all, 12), static_cast<std::uint32_t>(bytes.size() / 32 - 1));
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const std::size_t entry = 32 + 32 * std::size_t{k};
-        const std::uint64_t offset = load_le<std::uint64_t>(all, entry + 8),
-                            size = load_le<std::uint64_t>(all, entry + 16);
-        if (offset <= bytes.size() && size <= bytes.size() - offset)
-            store(bytes, entry + 24, crc32c(all.subspan(offset, size)), 4);
-    }
-    store(bytes, 24, crc32c(all.subspan(32, 32 * std::size_t{count})), 4);
-    store(bytes, 28, crc32c(all.first(28)), 4);
 }
 
 FindingCode code_of(const Bytes& bytes) {

@@ -160,6 +160,91 @@ TEST_F(Shaders, crossToHlslMetalAndEs) {
     }
 }
 
+/// All rules, with and without levels, image and the hardware's filter.
+std::vector<std::pair<BilevelTexture, bool>> all_bilevels() {
+    std::vector<std::pair<BilevelTexture, bool>> all;
+    for (const BilevelRule rule : {BilevelRule::Single, BilevelRule::Min, BilevelRule::Max, BilevelRule::Median}) {
+        for (std::uint32_t switches = 0; switches < 8; ++switches) {
+            BilevelTexture t;
+            t.rule = rule, t.channels = bilevel_channels(rule);
+            t.below = 0x80402000, t.above = 0xffffffff;
+            if (switches & 1u) t.mips = {0};
+            if (switches & 2u) t.image = {0};
+            all.emplace_back(t, (switches & 4u) != 0);
+        }
+    }
+    return all;
+}
+
+TEST_F(Shaders, ofBilevelTexturesCompileInEveryDialect) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    for (const Dialect dialect : kDialects) {
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const auto& [texture, filtered] : all_bilevels()) {
+            for (const Filter filter : {Filter::Point, Filter::Area})
+                EXPECT_EQ(run(bilevel_fragment_source(dialect, texture, filter, filtered), "bilevel.frag", tool), "");
+            if (!texture.mips.empty()) {
+                EXPECT_EQ(run(bilevel_mip_fragment_source(dialect, texture, filtered), "mip.frag", tool), "");
+            }
+        }
+    }
+}
+
+/// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
+TEST_F(Shaders, ofBilevelTexturesCompileByHand) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
+    const std::string main_text =
+        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+        "void main() { color = fetexBilevelSample(uv) * fetexBilevelValue(uv) + fetexBilevelSampleArea(uv, vec2(0.1))\n"
+        "#if FETEX_BILEVEL_MIPS\n    + fetexBilevelSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
+    std::stringstream library;
+    library << std::ifstream(root + "fetex_bilevel.glsl").rdbuf();
+    ASSERT_GT(library.str().size(), 5000u);
+    for (const Dialect dialect : kDialects) {
+        std::stringstream prelude;
+        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const char* macros :
+             {"", "#define FETEX_BILEVEL_RULE 3\n#define FETEX_BILEVEL_MIPS 1\n",
+              "#define FETEX_BILEVEL_FILTERED 1\n#define FETEX_BILEVEL_IMAGE 1\n", "#define FETEX_BILEVEL_GATHER 0\n"})
+            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
+    }
+}
+
+TEST_F(Shaders, ofBilevelTexturesCrossToHlslMetalAndEs) {
+    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
+        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    const fs::path binary = folder_ / "shader.spv";
+    for (const auto& [texture, filtered] : all_bilevels()) {
+        const std::string source = texture.mips.empty()
+                                       ? bilevel_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
+                                       : bilevel_mip_fragment_source(Dialect::Vulkan450, texture, filtered);
+        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
+        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
+            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
+        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
+        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+    }
+}
+
+TEST_F(Shaders, ofBilevelTexturesHaveWhatTheAssetNeeds) {
+    BilevelTexture t;
+    t.rule = BilevelRule::Max, t.channels = 2, t.above = 0xff0000ff;
+    const std::string text = bilevel_specialisation(t);
+    for (const char* line : {"#define FETEX_BILEVEL_RULE 2\n", "#define FETEX_BILEVEL_MIPS 0\n",
+                             "#define FETEX_BILEVEL_IMAGE 0\n", "#define FETEX_BILEVEL_FILTERED 0\n",
+                             "#define FETEX_BILEVEL_ABOVE vec4(1.000000000e+00, 0.000000000e+00, 0.000000000e+00, "
+                             "1.000000000e+00)\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << text;
+    EXPECT_NE(bilevel_specialisation(t, true).find("#define FETEX_BILEVEL_FILTERED 1\n"), std::string::npos);
+    for (const Dialect dialect : kDialects)
+        for (const char c : bilevel_mip_fragment_source(dialect, t) + bilevel_fragment_source(dialect, t, Filter::Area))
+            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+}
+
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// What a renderer holds. Internal to the host library; one file defines the part of each representation
+/// (renderer_fbt.cpp, renderer_bilevel.cpp), renderer.cpp the rest. A context is current in every function.
+#pragma once
+
+#include <array>
+
+#include "runtime_glsl/host/gl_objects.h"
+#include "runtime_glsl/host/renderer.h"
+
+namespace fetex {
+
+inline const RuntimeError kNotCurrent = {RuntimeErrc::OutOfMemoryOrLost, "the context can't be made current"};
+
+/// A sampler's program, and the texture that its grid is laid over.
+struct Layer {
+    const Program* program = nullptr;
+    std::uint32_t width = 0, height = 0;
+    double shift = 0;
+};
+
+/// A bi-level texture as it was uploaded.
+struct BilevelLayer {
+    std::array<Program, 3> programs; ///< by BilevelProgram; compiled when they are first wanted
+    GLuint texels = 0, mips = 0, image = 0;
+    BilevelTexture traits; ///< dimensions and what shaders depend on; of mips and image one element, if there are any
+    BilevelFetch fetch = BilevelFetch::Interpolated;
+};
+enum class BilevelProgram : std::uint8_t { Hard, Soft, Mips };
+
+struct Renderer::State {
+    std::unique_ptr<GlContext> context;
+    RendererOptions options;
+    GLint max_texture_side = 0, max_buffer_texels = 0;
+    GLuint vertex_array = 0;
+    Target target;
+    std::array<Program, 3> fbt_programs, mip_programs; ///< by Filter
+    Program bitmap_program, filtered_program, field_program;
+    GLuint texel_texture = 0, corner_texture = 0, record_texture = 0, record_buffer = 0, mip_texture = 0;
+    GLuint bitmap_texture = 0, field_texture = 0;
+    FbtTexture fbt_traits; ///< what shaders depend on of the texture uploaded last; mips: one word, if it has any
+    std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
+
+    BilevelLayer bilevel;
+
+    [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
+    RuntimeStatus set_up();
+    RuntimeStatus check_limits(const FbtTexture& texture) const;
+    void delete_fbt();
+    Outcome<Program> build_fbt(const FbtTexture& traits, Filter filter, bool mips) const;
+    RuntimeStatus need_fbt_program(Filter filter, bool mips);
+    [[nodiscard]] const Program& fbt_program(Filter filter, bool mips) const {
+        return (mips ? mip_programs : fbt_programs)[static_cast<std::size_t>(filter)];
+    }
+    void upload_records(const FbtTexture& texture);
+    void upload_record_buffer(const FbtTexture& texture);
+    void upload_mips(const FbtTexture& texture);
+    RuntimeStatus upload_fbt(const FbtTexture& texture);
+    RuntimeStatus check_bilevel(const BilevelTexture& texture) const;
+    void delete_bilevel();
+    Outcome<Program> build_bilevel(const BilevelTexture& traits, BilevelFetch fetch, BilevelProgram kind) const;
+    RuntimeStatus need_bilevel_program(BilevelProgram kind);
+    [[nodiscard]] const Program& bilevel_program(BilevelProgram kind) const {
+        return bilevel.programs[static_cast<std::size_t>(kind)];
+    }
+    void upload_bilevel_mips(const BilevelTexture& texture);
+    RuntimeStatus upload_bilevel(const BilevelTexture& texture, BilevelFetch fetch);
+    void bind_bilevel() const;
+    Outcome<double> linear_filter_error();
+    RuntimeStatus need_bitmap_programs();
+    RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
+    RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,
+                               std::uint32_t height) const;
+    RuntimeStatus upload_field(const Field& field);
+    Outcome<Layer> bind(Sampler sampler);
+    void bind_fbt() const;
+    void bind_field() const;
+    void bind_bitmap(GLint filter) const;
+    void draw_tile(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
+                   std::uint32_t height, double shift, std::uint32_t first_x, std::uint32_t first_y) const;
+    Outcome<Image> render(const Program& program, const View& view, const RenderSize& size, std::uint32_t width,
+                          std::uint32_t height, double shift);
+};
+
+} // namespace fetex

@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+vec4 fetexSampleAt(ivec2 base, vec2 local) {
+    return fetexBilevelSampleTexel(base, local);
+}

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+vec4 fetexSampleAt(ivec2 base, vec2 local) {
+    vec2 fraction = vec2(float(uint(fetexStep.z)), float(uint(fetexStep.w))) * (1.0 / 4294967296.0);
+    return fetexBilevelSampleAreaTexel(base, local, vec2(fetexStep.xy) + fraction);
+}
