@@ -36,8 +36,8 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     const ScannedOutline scanned(silhouette, outline, size.width, size.height, lines.fit);
     const ThresholdCells cells(scanned, size.width, size.height, rule);
     out.fit.texels_fitted = cells.texels().size();
-    out.fit.cells = static_cast<std::uint64_t>(
-        std::ranges::count_if(cells.cells(), [](const Cell& c) { return c.holds_outline; }));
+    out.fit.cells =
+        static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [](const Cell& c) { return c.holds_outline; }));
     const double reach = rule == BilevelRule::Single ? budget::kSeedReach : budget::kSeedReachOfSeveral;
     out.values = seed_values(cells, scanned, outline, reach);
     if (rule == BilevelRule::Single) {

@@ -13,7 +13,7 @@
 namespace fetexc {
 
 struct BilevelOptions {
-    GridSize size;              ///< of a texture of one channel; those of more channels have as many bytes, so fewer texels
+    GridSize size; ///< of a texture of one channel; those of more channels have as many bytes, so fewer texels
     std::uint32_t channels = 0; ///< 1, 2, 3; 0: whichever gets the least area wrong
     bool exact_size = false;    ///< the size is in texels, whatever the channels
     MidGreys greys = MidGreys::Allow;
@@ -27,7 +27,7 @@ struct BilevelFit {
     std::uint32_t width = 0, height = 0;
     std::uint64_t cells = 0, texels_fitted = 0; ///< with some of the outline; at their corners
     bool paper_start = false;                   ///< the paper's equations were the better start
-    FitTrace trace;                             ///< part of the canvas that is wrong, after each step (contour, then bytes)
+    FitTrace trace; ///< part of the canvas that is wrong, after each step (contour, then bytes)
     std::uint64_t contour_steps = 0, bytes_tried = 0;
     double wrong = 0; ///< part of the canvas, along finer lines
 };

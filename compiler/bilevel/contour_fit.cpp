@@ -51,8 +51,8 @@ class Unknowns {
         const std::uint32_t n = cells_.channels();
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < n; ++c)
-                values[std::size_t{t} * n + c] = static_cast<std::uint8_t>(
-                    std::lround(std::clamp(numbers_[block_[t] + c], 0.0, 1.0) * 255));
+                values[std::size_t{t} * n + c] =
+                    static_cast<std::uint8_t>(std::lround(std::clamp(numbers_[block_[t] + c], 0.0, 1.0) * 255));
         }
     }
 
@@ -155,8 +155,7 @@ class CrossingResidual final : public ceres::CostFunction {
 class Watch final : public ceres::IterationCallback {
   public:
     Watch(const ThresholdCells& cells, const Unknowns& unknowns, std::vector<std::uint8_t>& best, FitTrace& trace)
-        : cells_(cells), unknowns_(unknowns), best_(best), now_(best), trace_(trace),
-          least_(cells.wrong_area(best)) {}
+        : cells_(cells), unknowns_(unknowns), best_(best), now_(best), trace_(trace), least_(cells.wrong_area(best)) {}
 
     ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
         unknowns_.round_into(now_);

@@ -15,8 +15,8 @@ using FitTrace = std::vector<double>;
 
 /// The paper's system, of one channel: where the outline crosses a line between two neighbouring centres the
 /// interpolated value is one half there if the outline is nearly level or upright, and the gradient has the outline's
-/// direction elsewhere (Loviscach 2005, "Optimizing the lo-res texture"). Starts from `values`; the result is rounded to
-/// bytes.
+/// direction elsewhere (Loviscach 2005, "Optimizing the lo-res texture"). Starts from `values`; the result is rounded
+/// to bytes.
 void fit_intersections_and_angles(const ThresholdCells& cells, std::span<const OutlineSegment> outline,
                                   std::vector<std::uint8_t>& values);
 

@@ -61,7 +61,8 @@ class ByteFit {
 
     [[nodiscard]] std::uint8_t moved(std::uint8_t v, int by) const {
         int to = std::clamp(v + by, 0, 255);
-        if (greys_ == MidGreys::Avoid && to >= kFirstGrey && to <= kLastGrey) to = by > 0 ? kLastGrey + 1 : kFirstGrey - 1;
+        if (greys_ == MidGreys::Avoid && to >= kFirstGrey && to <= kLastGrey)
+            to = by > 0 ? kLastGrey + 1 : kFirstGrey - 1;
         return static_cast<std::uint8_t>(to);
     }
 

@@ -15,16 +15,14 @@ ScanLines::ScanLines(std::span<const OutlineSegment> outline, std::uint32_t acro
         for (const OutlineSegment& s : outline) {
             const double u0 = level ? s.y0 : s.x0, u1 = level ? s.y1 : s.x1;
             const double v0 = level ? s.x0 : s.y0, v1 = level ? s.x1 : s.y1;
-            const auto line_after = [&](double u) {
-                return static_cast<std::int64_t>(std::ceil(u * per_texel - 0.5));
-            };
+            const auto line_after = [&](double u) { return static_cast<std::int64_t>(std::ceil(u * per_texel - 0.5)); };
             const std::int64_t begin = std::max<std::int64_t>(line_after(std::min(u0, u1)), 0);
             const std::int64_t end = std::min(line_after(std::max(u0, u1)), lines);
             for (std::int64_t n = begin; n < end; ++n) {
                 const double u = position(static_cast<std::uint32_t>(n));
                 // Above is on the left: right of what runs down, below what runs left.
-                visit(static_cast<std::size_t>(n), Crossing{v0 + (v1 - v0) * ((u - u0) / (u1 - u0)),
-                                                            (v1 - v0) / (u1 - u0), (u1 > u0) == level});
+                visit(static_cast<std::size_t>(n),
+                      Crossing{v0 + (v1 - v0) * ((u - u0) / (u1 - u0)), (v1 - v0) / (u1 - u0), (u1 > u0) == level});
             }
         }
     };
@@ -42,7 +40,8 @@ ScanLines::ScanLines(std::span<const OutlineSegment> outline, std::uint32_t acro
 
 bool ScanLines::above(std::uint32_t n, double at) const {
     const std::span<const Crossing> all = crossings(n);
-    const auto next = std::upper_bound(all.begin(), all.end(), at, [](double v, const Crossing& c) { return v < c.at; });
+    const auto next =
+        std::upper_bound(all.begin(), all.end(), at, [](double v, const Crossing& c) { return v < c.at; });
     return next == all.begin() ? !next->enters : std::prev(next)->enters;
 }
 

@@ -109,7 +109,8 @@ class ChannelAssigner {
 
     /// A corner of what is above is where both channels must be above: min sharpens it; max the others.
     [[nodiscard]] bool sharpened(std::uint32_t k) const {
-        return chains_.previous[k] != kNone && chains_.corner(k) && (chains_.turn[k] < 0) == (rule_ == BilevelRule::Min);
+        return chains_.previous[k] != kNone && chains_.corner(k) &&
+               (chains_.turn[k] < 0) == (rule_ == BilevelRule::Min);
     }
 
     void assign_single(const std::vector<Run>& runs) {
@@ -250,9 +251,8 @@ std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const Scanned
                                          : n.t > 1 ? chains.next[n.segment]
                                                    : n.segment;
             const bool prolonged = beyond == kNone || sets[beyond] != sets[n.segment];
-            const double distance = beyond == n.segment || prolonged
-                                        ? n.signed_line
-                                        : std::copysign(std::sqrt(n.square), n.signed_line);
+            const double distance =
+                beyond == n.segment || prolonged ? n.signed_line : std::copysign(std::sqrt(n.square), n.signed_line);
             value = static_cast<std::uint8_t>(std::lround(std::clamp(127.5 + 127.5 * distance / reach, 0.0, 255.0)));
         }
     }

@@ -14,9 +14,7 @@ namespace {
 
 constexpr double kCut = 0.5; ///< of alpha, of luma
 
-double luma_over_white(const Rgba& c) {
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + (1 - c.a);
-}
+double luma_over_white(const Rgba& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + (1 - c.a); }
 
 /// Point at t of an edge, by de Casteljau.
 WidthPoint point_on(const VisibleEdge& e, double t) {
@@ -41,8 +39,7 @@ void reverse(VisibleEdge& e) {
 /// The scene's results, told apart by a rule.
 class SceneSilhouette {
   public:
-    SceneSilhouette(const Scene& scene, SilhouetteRule::Kind kind)
-        : scene_(scene), kind_(kind), compositor_(scene) {}
+    SceneSilhouette(const Scene& scene, SilhouetteRule::Kind kind) : scene_(scene), kind_(kind), compositor_(scene) {}
 
     Result<Silhouette> find(unsigned threads) {
         auto edges = visible_edges(scene_, compositor_, threads);

@@ -15,10 +15,10 @@ namespace fetexc {
 
 /// Width units as of VisibleEdge. Every edge of the outline inside the canvas once, with what is above on its left.
 struct Silhouette {
-    double height = 1;              ///< of the canvas
-    std::vector<VisibleEdge> edges; ///< left = 1, right = 0; neighbours share their end points bit for bit
-    bool above_everywhere = false;  ///< where there is no edge at all
-    Rgba below, above;              ///< premultiplied; where several colours are on a side that with the longest edges
+    double height = 1;               ///< of the canvas
+    std::vector<VisibleEdge> edges;  ///< left = 1, right = 0; neighbours share their end points bit for bit
+    bool above_everywhere = false;   ///< where there is no edge at all
+    Rgba below, above;               ///< premultiplied; where several colours are on a side that with the longest edges
     std::uint64_t edges_varying = 0; ///< edges with a colour that isn't solid on a side: cut where the middle is
 };
 

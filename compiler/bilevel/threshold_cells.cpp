@@ -16,9 +16,10 @@ template <BilevelRule Rule> bool combine(const std::array<bool, 3>& above) {
     return above[0] + above[1] + above[2] >= 2;
 }
 
-template <BilevelRule Rule> constexpr std::uint32_t kChannels = Rule == BilevelRule::Single   ? 1
-                                                                 : Rule == BilevelRule::Median ? 3
-                                                                                               : 2;
+template <BilevelRule Rule>
+constexpr std::uint32_t kChannels = Rule == BilevelRule::Single   ? 1
+                                    : Rule == BilevelRule::Median ? 3
+                                                                  : 2;
 
 std::uint32_t clamped(std::int64_t v, std::uint32_t size) {
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(v, 0, std::int64_t{size} - 1));

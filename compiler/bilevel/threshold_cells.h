@@ -20,8 +20,8 @@ namespace fetexc {
 /// across it.
 struct CellLine {
     float across = 0;
-    bool above_first = false;      ///< at the part's beginning
-    std::uint32_t first = 0;       ///< in the crossings
+    bool above_first = false; ///< at the part's beginning
+    std::uint32_t first = 0;  ///< in the crossings
     std::uint32_t crossings = 0;
 };
 
