@@ -312,4 +312,13 @@ inline constexpr int kFitPaperSteps = 5;
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;
 
+/// Parts of a pixel: nine pixels that a straight edge covers otherwise than they say, by more in the root mean square,
+/// hold a corner or several edges. A corner of a right angle in the middle misfits by 0.1 or more; roundings of 8 bits by
+/// 0.002, an edge round with a radius of five pixels by 0.02.
+inline constexpr double kEdgeLineMisfit = 0.04;
+
+/// Radians and pixels over which an edge's coverages are differentiated, and the part of its diagonal product below which
+/// a normal matrix says nothing. Decides nothing else: a step that doesn't fit better isn't taken.
+inline constexpr double kEdgeLineDifference = 0x1p-20;
+
 } // namespace fetexc::budget
