@@ -150,6 +150,7 @@ CompileOutcome outcome_of(const Job& job, const fetex::FbtTexture& fbt, CompileR
     outcome.width = fbt.width;
     outcome.height = fbt.height;
     outcome.gpu_bytes = fetex::fbt_gpu_bytes(fbt);
+    outcome.samples = fbt.sample_format;
     outcome.traits = fbt.traits;
     outcome.report = std::move(report);
     return outcome;
