@@ -2,12 +2,12 @@
 /// The GLSL sampler equals the CPU reference within 1/255 in every pixel that isn't on an edge, on every back end that
 /// this machine has, in every dialect that runs there.
 #include <array>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "formats/fbt_samples.h"
 #include "formats/validate.h"
+#include "tests/conformance/backend_fixture.h"
 #include "tests/conformance/compare_renderers.h"
 #include "tests/support/fbt_maker.h"
 #include "tests/support/random_fbt.h"
@@ -16,10 +16,8 @@ namespace fetexc::test {
 namespace {
 
 using fetex::Backend;
-using fetex::Dialect;
 using fetex::FbtTexture;
 using fetex::Renderer;
-using fetex::RendererOptions;
 
 constexpr double kMagnifications[] = {1, 8, 64, 512};
 
@@ -30,36 +28,8 @@ constexpr double kLargestEdgeShare = 1e-3;
 /// good to 2^-19 (20 texels in fp32, fixed point beyond), over which such a gradient changes by 4·2^-18.
 constexpr double kWideStep = 4 * 0x1p-18;
 
-std::string describe(const RendererOptions& options) {
-    return std::string(fetex::backend_name(options.backend)) + " " + fetex::dialect_name(options.dialect) +
-           (options.texture_buffer ? " texture buffer" : "");
-}
-
-std::vector<RendererOptions> variants() {
-    std::vector<RendererOptions> all;
-    for (const Backend backend : fetex::kBackends)
-        all.push_back({.backend = backend});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Glsl430});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Essl300});
-    all.push_back({.backend = Backend::OSMesa, .texture_buffer = true});
-    all.push_back({.backend = Backend::EglSurfaceless, .dialect = Dialect::Essl300});
-    return all;
-}
-
-class Conformance : public testing::TestWithParam<RendererOptions> {
+class Conformance : public BackendTest {
   protected:
-    /// GLFW needs a display; the others come with the packages that the build asks for and must work.
-    void SetUp() override {
-        auto opened = Renderer::open(GetParam());
-        if (opened.ok()) {
-            renderer_.emplace(std::move(opened.value()));
-        } else if (GetParam().backend == Backend::Glfw && !std::getenv("DISPLAY")) {
-            GTEST_SKIP() << "no DISPLAY: " << opened.error().message;
-        } else {
-            FAIL() << describe(GetParam()) << ": " << opened.error().message;
-        }
-    }
-
     void expect_equal(const FbtTexture& texture, double magnification, std::uint32_t side, std::uint64_t seed) {
         const auto bad = renderer_->upload(texture);
         ASSERT_FALSE(bad.has_value()) << bad->message;
@@ -70,7 +40,6 @@ class Conformance : public testing::TestWithParam<RendererOptions> {
         total_.add(found);
     }
 
-    std::optional<Renderer> renderer_;
     Comparison total_;
 };
 
@@ -263,12 +232,7 @@ TEST_P(Conformance, drawsBitmapsAsTheReferenceDoes) {
     EXPECT_LE(largest, 0.02 * kColorStep);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Conformance, testing::ValuesIn(variants()), [](const auto& tested) {
-    std::string name = describe(tested.param);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Backends, Conformance, testing::ValuesIn(backend_variants()), variant_name);
 
 /// Renderers of different libraries live side by side: each call makes its own context current and releases it.
 TEST(Backends, takeTurns) {

@@ -1,58 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Minified views: the GLSL sampler of the mip chain equals the CPU reference within 1/255, on every back end that this
 /// machine has, in every dialect that runs there.
-#include <cstdlib>
-#include <optional>
-
 #include <gtest/gtest.h>
 
 #include "formats/validate.h"
+#include "tests/conformance/backend_fixture.h"
 #include "tests/conformance/compare_renderers.h"
 #include "tests/support/random_fbt.h"
 
 namespace fetexc::test {
 namespace {
 
-using fetex::Backend;
-using fetex::Dialect;
 using fetex::FbtTexture;
-using fetex::Renderer;
-using fetex::RendererOptions;
 
 /// Between 1 and the scale of level 1 a pixel has area samples among its terms, up to 8; on random textures one in a
 /// thousand may differ (fbt_glsl_test.cpp).
 constexpr double kLargestEdgeShare = 5e-3;
 
-std::string describe(const RendererOptions& options) {
-    return std::string(fetex::backend_name(options.backend)) + "_" + fetex::dialect_name(options.dialect) +
-           (options.texture_buffer ? "_texture_buffer" : "");
-}
-
-std::vector<RendererOptions> variants() {
-    std::vector<RendererOptions> all;
-    for (const Backend backend : fetex::kBackends)
-        all.push_back({.backend = backend});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Glsl430});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Essl300});
-    all.push_back({.backend = Backend::OSMesa, .texture_buffer = true});
-    all.push_back({.backend = Backend::EglSurfaceless, .dialect = Dialect::Essl300});
-    return all;
-}
-
-class MipConformance : public testing::TestWithParam<RendererOptions> {
+class MipConformance : public BackendTest {
   protected:
-    /// GLFW needs a display; the others come with the packages that the build asks for and must work.
-    void SetUp() override {
-        auto opened = Renderer::open(GetParam());
-        if (opened.ok()) {
-            renderer_.emplace(std::move(opened.value()));
-        } else if (GetParam().backend == Backend::Glfw && !std::getenv("DISPLAY")) {
-            GTEST_SKIP() << "no DISPLAY: " << opened.error().message;
-        } else {
-            FAIL() << describe(GetParam()) << ": " << opened.error().message;
-        }
-    }
-
     /// Share of channels that differ by more than 1/255.
     double different(const FbtTexture& texture, const fetex::View& view, fetex::RenderSize size) {
         size.minification = fetex::Minification::Mips;
@@ -65,8 +31,6 @@ class MipConformance : public testing::TestWithParam<RendererOptions> {
             count += std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) > kColorStep;
         return static_cast<double>(count) / static_cast<double>(reference.value().rgba.size());
     }
-
-    std::optional<Renderer> renderer_;
 };
 
 TEST_P(MipConformance, equalsTheReferenceAtEveryScale) {
@@ -117,11 +81,7 @@ TEST_P(MipConformance, dropsTheChainOfTheTextureBefore) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, MipConformance, testing::ValuesIn(variants()), [](const auto& tested) {
-    std::string name = describe(tested.param);
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Backends, MipConformance, testing::ValuesIn(backend_variants()), variant_name);
 
 } // namespace
 } // namespace fetexc::test
