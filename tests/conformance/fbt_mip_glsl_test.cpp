@@ -13,9 +13,10 @@ namespace {
 
 using fetex::FbtTexture;
 
-/// Between 1 and the scale of level 1 a pixel has area samples among its terms, up to 8; on random textures one in a
-/// thousand may differ (fbt_glsl_test.cpp).
-constexpr double kLargestEdgeShare = 5e-3;
+/// Between 1 and the scale of level 1 a pixel has area samples among its terms, up to 8, which may differ
+/// (fbt_glsl_test.cpp); one channel of a frame here is 7e-5. Measured on Mesa 22.3: none in any frame on any back end,
+/// nor in 120 more of 24 other textures.
+constexpr double kLargestAreaShare = 1.5e-4;
 
 class MipConformance : public BackendTest {
   protected:
@@ -26,10 +27,7 @@ class MipConformance : public BackendTest {
         const auto drawn = renderer_->render(view, size);
         EXPECT_TRUE(reference.ok() && drawn.ok());
         if (!reference.ok() || !drawn.ok()) return 1;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < reference.value().rgba.size(); ++k)
-            count += std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) > kColorStep;
-        return static_cast<double>(count) / static_cast<double>(reference.value().rgba.size());
+        return different_share(reference.value(), drawn.value());
     }
 };
 
@@ -46,7 +44,7 @@ TEST_P(MipConformance, equalsTheReferenceAtEveryScale) {
             // Off the texture's middle, so that borders are repeated too.
             const fetex::View view{0.5 - 0.53 * extent / width, 0.5 - 0.48 * extent / height, extent / width,
                                    extent / height};
-            EXPECT_LE(different(texture, view, {side, side, 4, filter}), texels < 3 ? kLargestEdgeShare : 0)
+            EXPECT_LE(different(texture, view, {side, side, 4, filter}), texels < 3 ? kLargestAreaShare : 0)
                 << width << "x" << height << " at " << texels << " texels a pixel";
         }
     }
@@ -59,7 +57,7 @@ TEST_P(MipConformance, equalsTheReferenceWherePixelsAreNotSquare) {
         const fetex::View view{0.05, -0.1, x * 24 / 96, y * 24 / 80};
         EXPECT_EQ(different(texture, view, {24, 24, 1}), 0) << x << " x " << y;
     }
-    EXPECT_LE(different(texture, {0, 0, 1, 1}, {400, 20, 1}), kLargestEdgeShare);
+    EXPECT_LE(different(texture, {0, 0, 1, 1}, {400, 20, 1}), kLargestAreaShare);
 }
 
 TEST_P(MipConformance, magnifiedViewsAreThoseOfTheFeatures) {
@@ -77,7 +75,7 @@ TEST_P(MipConformance, dropsTheChainOfTheTextureBefore) {
     const FbtTexture chain = random_fbt(6, {.width = 20, .height = 20, .mips = true}), none = random_fbt(7);
     for (const FbtTexture* texture : {&chain, &none, &chain}) {
         ASSERT_FALSE(renderer_->upload(*texture).has_value());
-        EXPECT_LE(different(*texture, {}, {5, 5, 4}), kLargestEdgeShare);
+        EXPECT_LE(different(*texture, {}, {5, 5, 4}), kLargestAreaShare);
     }
 }
 
