@@ -139,7 +139,8 @@ bool fetexFbtCrossesQuadratic(vec2 a, vec2 b, vec2 c, vec2 p, bool negative) {
 #if (FETEX_FBT_DEGREES & 8) != 0
 // Laguerre's step, kept in a bracket: 6 steps leave at most 5e-7 texel on every monotone cubic of the u16 grid, flat
 // ends and inflections included (Newton: 8 steps leave 7e-4 of the inflected ones wrong by up to 2e-2). The bracket
-// test includes its ends, and a step that isn't a number fails it.
+// test includes its ends, and a step that isn't a number fails it. The step has cycles of two, from which the bracket's
+// middle helps.
 float fetexFbtSolveCubic(float y0, float y1, float y2, float y3, float y, int steps) {
     float up = y3 >= y0 ? 1.0 : -1.0;
     float a = up * (y3 - y0 + 3.0 * (y1 - y2));
@@ -155,7 +156,8 @@ float fetexFbtSolveCubic(float y0, float y1, float y2, float y3, float y, int st
         float f1 = (3.0 * a * t + 2.0 * b) * t + c;
         float f2 = 6.0 * a * t + 2.0 * b;
         float next = t - 3.0 * f / (f1 + sqrt(max(4.0 * f1 * f1 - 6.0 * f * f2, 0.0)));
-        t = next >= low && next <= high ? next : 0.5 * (low + high);
+        bool cycles = k == 3 && high - low > 0.25; // steps from end to end of the bracket
+        t = next >= low && next <= high && !cycles ? next : 0.5 * (low + high);
     }
     return t;
 }

@@ -213,6 +213,24 @@ TEST_P(Conformance, drawsWhatTouchesTheFarBorder) {
     }
 }
 
+/// A monotone cubic and a level, that of a row of pixels, between which Laguerre's step goes from t = 1/4 to 1 and back.
+TEST_P(Conformance, solvesCubicsOnWhichTheStepCycles) {
+    const std::vector<std::uint32_t> points = {
+        fetex::fbt_pack_point(0, 0.464447), fetex::fbt_pack_point(0.156403, 0.595184),
+        fetex::fbt_pack_point(0.056152, 0.464447), fetex::fbt_pack_point(0.25, 0.856659)};
+    FbtTexture t;
+    t.width = t.height = 1;
+    t.texels = {fetex::kFbtKindSingle << 30 |
+                append_list(t.records,
+                            {{3, fetex::kFbtRayPosX, 1, points, 0, true, {fetex::kFbtModelSolid, 0xff0000ff}}},
+                            {fetex::kFbtModelSolid, 0xffff0000})};
+    t.traits = fetex::fbt_traits(t);
+    ASSERT_TRUE(fetex::validate_fbt(t).empty()) << fetex::validate_fbt(t)[0].message;
+    ASSERT_FALSE(renderer_->upload(t).has_value());
+    const Comparison found = compare_frame(t, *renderer_, {}, 8, 8); // a row at 9/16
+    EXPECT_TRUE(found.equal()) << found.first_wrong << found.error;
+}
+
 TEST_P(Conformance, drawsTilesWithoutSeams) {
     const FbtTexture texture = random_fbt(12, {.width = 40, .height = 33});
     ASSERT_FALSE(renderer_->upload(texture).has_value());
