@@ -175,6 +175,7 @@ Json outcome_json(const CompileOutcome& o) {
                  {"height", o.height},
                  {"fileBytes", o.file_bytes},
                  {"gpuBytes", o.gpu_bytes},
+                 {"samples", sample_format_name(o.samples)},
                  {"milliseconds", o.milliseconds},
                  {"scene", scene_json(o.report.scene)},
                  {"planar", planar_json(o.report.planar)},
@@ -187,6 +188,18 @@ Json outcome_json(const CompileOutcome& o) {
 }
 
 } // namespace
+
+const char* sample_format_name(fetex::FbtSampleFormat format) {
+    switch (format) {
+    case fetex::FbtSampleFormat::Rgba8:
+        return "8";
+    case fetex::FbtSampleFormat::Rgba16:
+        return "16";
+    case fetex::FbtSampleFormat::Rgba16F:
+        return "float";
+    }
+    return "";
+}
 
 std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
     std::vector<std::string> parts;
@@ -214,6 +227,9 @@ std::string report_text(const CompileOutcome& o) {
     text += fmt::format(
         "  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n", o.width,
         o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
+    text += fmt::format("  samples    {}\n", o.samples == fetex::FbtSampleFormat::Rgba16F
+                                                 ? "16-bit floats"
+                                                 : fmt::format("{} bits a channel", sample_format_name(o.samples)));
     if (o.report.image.width != 0) text += image_text(o.report.image);
     text +=
         scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);

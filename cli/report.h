@@ -15,10 +15,14 @@ struct CompileOutcome {
     std::string input, output;
     std::uint32_t width = 0, height = 0; ///< texels
     std::uint64_t file_bytes = 0, gpu_bytes = 0;
+    fetex::FbtSampleFormat samples = fetex::FbtSampleFormat::Rgba8;
     fetex::FbtTraits traits;
     CompileReport report;
     double milliseconds = 0; ///< wall clock, front end and compiler; the only figure here that differs between runs
 };
+
+/// As `compile --samples` names it: 8, 16, float.
+const char* sample_format_name(fetex::FbtSampleFormat format);
 
 /// Parts of the sampler that this asset's shader does without, e.g. "cubics", "bands".
 std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits);

@@ -202,6 +202,11 @@ inline constexpr double kPatchRidge = 0x1p-10;
 /// lines in place of curves, the rest for roundings (2^14 pixels to 2^-39 each).
 inline constexpr double kInvalidationSlack = 0x1p-9;
 
+/// Colour channel of an image: beyond 0 and 1 by less, nothing is said of clipping: half a step of 12 bits, the finest
+/// that cameras and film scans store in integers; what resampling in linear light, or their conversion to floats, leaves
+/// around 0 and 1. It shows in no sample of 8 bits.
+inline constexpr double kSampleOvershoot = 0x1p-13;
+
 /// Against a squared error of 1 a texel, where texels are no smaller than pixels: what a second difference of an
 /// image's corner values counts. (Smaller texels: times their number in a pixel, which makes it the same of the surface
 /// in pixels; the anchor below divided by it.) A detail of two texels' wavelength, that pixel centres don't see at the corners, is then left out; of four texels, 80 % are
