@@ -280,6 +280,12 @@ inline constexpr double kOutlineChord = 0x1p-12;
 /// a circle of half a texel, the roundest that a texture can hold, takes chords of 0.13.
 inline constexpr double kCornerTurn = 0.15;
 
+/// Of an outline that comes from pixels, whose single pieces say little: radians between its directions over so many
+/// texels, and at least so many pixels, before and behind a point. A circle of 0.7 texels turns by as much.
+inline constexpr double kCornerTurnOfPixels = 0.5;
+inline constexpr double kCornerWindow = 0.35;
+inline constexpr double kCornerPixels = 3;
+
 /// Square texels: two segments that share a point are equally far from what is nearest to the point.
 inline constexpr double kSameDistance = 1e-12;
 

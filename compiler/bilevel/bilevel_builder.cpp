@@ -39,7 +39,9 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     out.fit.cells =
         static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [](const Cell& c) { return c.holds_outline; }));
     const double reach = rule == BilevelRule::Single ? budget::kSeedReach : budget::kSeedReachOfSeveral;
-    out.values = seed_values(cells, scanned, outline, reach);
+    const double pixel = silhouette.pixelated * size.width;
+    const double window = pixel > 0 ? std::max(budget::kCornerWindow, budget::kCornerPixels * pixel) : 0;
+    out.values = seed_values(cells, scanned, outline, reach, window);
     if (rule == BilevelRule::Single) {
         std::vector<std::uint8_t> paper = out.values;
         fit_intersections_and_angles(cells, outline, paper);
