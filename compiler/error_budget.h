@@ -318,7 +318,7 @@ inline constexpr double kFitCrowdedWeight = 0.3;
 /// gradient's length, so that the values have a scale.
 inline constexpr double kFitPositionFloor = 0.05;
 inline constexpr double kFitSteepness = 0.1;
-inline constexpr int kFitPaperSteps = 5;
+inline constexpr int kFitPaperSteps = 2;
 
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;

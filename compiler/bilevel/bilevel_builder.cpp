@@ -14,12 +14,14 @@ namespace {
 
 using fetex::BilevelRule;
 
-/// Scan lines a texel: of the contour's fit and of the first bytes; of the last ones; of the figure in the report.
-struct Lines {
-    std::uint32_t fit, polish, verify;
+/// What a fit takes. Scan lines a texel: of the contour's fit and of the first bytes; of the last ones; of the figure
+/// in the report. Sweeps over pairs.
+struct Effort {
+    std::uint32_t fit_lines, polish_lines, verify_lines;
+    int pair_sweeps;
 };
-constexpr Lines kLinesOfOne{8, 16, 64}, kLinesOfSeveral{16, 32, 64};
-constexpr int kContourSteps = 12, kSweeps = 60, kPairSweeps = 6;
+constexpr Effort kEffortOfOne{8, 16, 64, 2}, kEffortOfSeveral{16, 32, 64, 12};
+constexpr int kContourSteps = 12, kSweeps = 80;
 constexpr std::uint32_t kMaxSize = 16384;
 
 struct Fitted {
@@ -32,8 +34,8 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     Fitted out;
     out.fit.rule = rule, out.fit.width = size.width, out.fit.height = size.height;
     const std::vector<OutlineSegment> outline = outline_in_texels(silhouette, size.width, size.height);
-    const Lines lines = rule == BilevelRule::Single ? kLinesOfOne : kLinesOfSeveral;
-    const ScannedOutline scanned(silhouette, outline, size.width, size.height, lines.fit);
+    const Effort& effort = rule == BilevelRule::Single ? kEffortOfOne : kEffortOfSeveral;
+    const ScannedOutline scanned(silhouette, outline, size.width, size.height, effort.fit_lines);
     const ThresholdCells cells(scanned, size.width, size.height, rule);
     out.fit.texels_fitted = cells.texels().size();
     out.fit.cells =
@@ -51,13 +53,13 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     fit_contour(cells, out.values, kContourSteps, out.fit.trace);
     out.fit.contour_steps = out.fit.trace.size();
     out.fit.bytes_tried = fit_bytes(cells, out.values, greys, {kSweeps, 0}, out.fit.trace);
-    const ScannedOutline finer(silhouette, outline, size.width, size.height, lines.polish);
+    const ScannedOutline finer(silhouette, outline, size.width, size.height, effort.polish_lines);
     const ThresholdCells fine(finer, size.width, size.height, rule);
-    out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, kPairSweeps}, out.fit.trace);
+    out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, effort.pair_sweeps}, out.fit.trace);
     const double area = static_cast<double>(size.width) * size.height;
     for (double& wrong : out.fit.trace)
         wrong /= area;
-    const ScannedOutline finest(silhouette, outline, size.width, size.height, lines.verify);
+    const ScannedOutline finest(silhouette, outline, size.width, size.height, effort.verify_lines);
     out.fit.wrong = ThresholdCells(finest, size.width, size.height, rule).wrong_area(out.values) / area;
     return out;
 }
