@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/bilevel/coverage.h"
+#include "compiler/bilevel/parts.h"
 #include "compiler/bilevel/seed.h"
 #include "compiler/diagnostics.h"
 #include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "formats/fbt_samples.h"
 
 namespace fetexc {
 namespace {
@@ -27,6 +30,7 @@ constexpr std::uint32_t kMaxSize = 16384;
 struct Fitted {
     BilevelFit fit;
     std::vector<std::uint8_t> values;
+    std::uint64_t thin_cells = 0;
 };
 
 /// One texture of one rule.
@@ -43,6 +47,9 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     const double reach = rule == BilevelRule::Single ? budget::kSeedReach : budget::kSeedReachOfSeveral;
     const double pixel = silhouette.pixelated * size.width;
     const double window = pixel > 0 ? std::max(budget::kCornerWindow, budget::kCornerPixels * pixel) : 0;
+    out.thin_cells = static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [&](const Cell& c) {
+        return std::ranges::any_of(cells.lines(c), [](const CellLine& l) { return l.crossings > 1; });
+    }));
     out.values = seed_values(cells, scanned, outline, reach, window);
     if (rule == BilevelRule::Single) {
         std::vector<std::uint8_t> paper = out.values;
@@ -62,6 +69,10 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     const ScannedOutline finest(silhouette, outline, size.width, size.height, effort.verify_lines);
     out.fit.wrong = ThresholdCells(finest, size.width, size.height, rule).wrong_area(out.values) / area;
     return out;
+}
+
+std::uint32_t packed(const Rgba& c) {
+    return fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
 /// As many bytes in more channels.
@@ -95,8 +106,15 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     t.width = fits[0].fit.width, t.height = fits[0].fit.height;
     t.rule = fits[0].fit.rule, t.channels = fetex::bilevel_channels(t.rule);
     t.texels = std::move(fits[0].values);
+    out.stats.thin_cells = fits[0].thin_cells;
     for (Fitted& f : fits)
         out.stats.fits.push_back(std::move(f.fit));
+    t.below = packed(silhouette.below), t.above = packed(silhouette.above);
+    if (progress) progress("levels", 0.9);
+    if (options.mips) t.mips = coverage_levels(silhouette, t.width, t.height, options.threads);
+    const PartCounts parts = count_parts(silhouette, t, options.threads);
+    out.stats.parts = parts.parts, out.stats.parts_lost = parts.lost, out.stats.parts_false = parts.invented;
+    out.stats.gpu_bytes = fetex::bilevel_gpu_bytes(t);
     out.stats.edges = silhouette.edges.size(), out.stats.edges_varying = silhouette.edges_varying;
     return out;
 }
