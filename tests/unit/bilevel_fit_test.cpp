@@ -154,6 +154,35 @@ TEST(BilevelFit, levelsAreCoverage) {
         EXPECT_NEAR(made.value().texture.mips[k], half[k] * 255, 0.5001);
 }
 
+/// Between the levels nothing is grey that isn't half covered: pictures of n pixels a side against exact coverage.
+TEST(BilevelFit, levelsChangeWithoutHalos) {
+    for (const char* name : kShapes) {
+        const Silhouette s = shape(name);
+        BilevelOptions options;
+        options.size = {64, 64}, options.channels = 1, options.mips = true;
+        fetex::BilevelTexture t = compile_bilevel(s, options).value().texture;
+        t.below = 0xff000000u, t.above = 0xffffffffu;
+        std::printf("  %s:", name);
+        for (const std::uint32_t n : {128u, 64u, 56u, 48u, 40u, 32u, 24u, 16u}) {
+            const std::vector<double> truth = coverage(s, n, n);
+            const double side = 64.0 / n;
+            double squares = 0;
+            for (std::uint32_t y = 0; y < n; ++y) {
+                for (std::uint32_t x = 0; x < n; ++x) {
+                    const fetex::FbtColor c =
+                        fetex::bilevel_sample_mip(t, (x + 0.5) * side, (y + 0.5) * side, {side, side});
+                    const double d = c.r - truth[std::size_t{y} * n + x];
+                    squares += d * d;
+                }
+            }
+            const double decibels = -10 * std::log10(squares / n / n);
+            std::printf(" %u: %.1f", n, decibels);
+            EXPECT_GE(decibels, n == 32 || n == 16 ? 40 : 20) << name << " " << n;
+        }
+        std::printf(" dB\n");
+    }
+}
+
 /// What is thinner than a texture can hold is counted.
 TEST(BilevelFit, countsWhatIsLost) {
     std::vector<test::Path> specks;
