@@ -63,6 +63,9 @@ GridSize grid_of(const SizeValue& size, const Extent& extent) {
     return size.longer != 0 ? grid_for(extent, size.longer) : GridSize{size.width, size.height};
 }
 
+/// By the compiler.
+bool size_chosen(const CompileCommandOptions& options) { return options.size.automatic || options.max_bytes != 0; }
+
 fetex::FbtSampleFormat sample_format(const CompileCommandOptions& options) {
     if (options.samples == "16") return fetex::FbtSampleFormat::Rgba16;
     return options.samples == "float" ? fetex::FbtSampleFormat::Rgba16F : fetex::FbtSampleFormat::Rgba8;
@@ -146,7 +149,9 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
     if (makes(options, "fbt")) {
         CompileOptions how = compile_options(options, picture.features.extent);
         if (!options.size_given) how.size = {picture.image.width, picture.image.height};
-        if (const Status s = add_fbt(compile_fbt(picture, how, progress.sink()), compiled); !s) return s.error();
+        auto build = size_chosen(options) ? compile_fbt_at_chosen_size(picture, how, options.max_bytes, progress.sink())
+                                          : compile_fbt(picture, how, progress.sink());
+        if (const Status s = add_fbt(std::move(build), compiled); !s) return s.error();
     }
     if (makes(options, "bilevel")) {
         const auto silhouette = silhouette_of(picture.image, *silhouette_rule(options.bilevel.silhouette));
@@ -159,7 +164,7 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
 Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOptions& options,
                                           std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
-    const bool chosen = options.size.automatic || options.max_bytes != 0;
+    const bool chosen = size_chosen(options);
     const std::uint32_t texels =
         chosen ? kDefaultTexels : std::max({options.size.longer, options.size.width, options.size.height});
     SceneOptions scene_options = options.scene;
@@ -214,7 +219,7 @@ CompileOutcome outcome_of(const Job& job, const Compiled& compiled) {
         const fetex::FbtTexture& fbt = compiled.fbt->texture;
         outcome.width = fbt.width, outcome.height = fbt.height;
         outcome.gpu_bytes = fetex::fbt_gpu_bytes(fbt);
-        outcome.traits = fbt.traits;
+        outcome.samples = fbt.sample_format, outcome.traits = fbt.traits;
     }
     if (compiled.bilevel) outcome.bilevel = outcome_of(compiled.bilevel->build);
     outcome.report = compiled.report;
@@ -302,8 +307,6 @@ Status check_inputs(const CompileCommandOptions& options) {
     if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
     if (options.bilevel.silhouette.starts_with("id:")) return usage("--silhouette id:NAME is for drawings");
     if (fbt && image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
-    if (fbt && (options.size.automatic || options.max_bytes != 0))
-        return usage("--size auto and --max-bytes choose sizes for drawings, not for an --image");
     return {};
 }
 
@@ -368,7 +371,7 @@ Command add_compile_command(CLI::App& parent) {
     CLI::Option* size = add_size_or_auto_option(
         *app, options->size, "Texels: both sides, or the longer one (default 128); auto: as few as cheap lookups need");
     app->add_option("--max-bytes", options->max_bytes,
-                    "The largest size with at most so many bytes on the GPU; of each representation")
+                    "The largest size, to 1/64, with at most so many bytes on the GPU; of each representation")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
         ->excludes(size)
         ->type_name("N");

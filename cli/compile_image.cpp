@@ -19,17 +19,17 @@ namespace {
 
 struct Received {
     RasterImage image;
-    std::uint64_t clipped = 0;
+    ImageNotes notes;
     std::string failure;
 };
 
-void receive(void* context, const void* bytes, std::uint32_t width, std::uint32_t height, std::uint64_t clipped) {
+void receive(void* context, const void* bytes, std::uint32_t width, std::uint32_t height, const ImageNotes& notes) {
     auto& to = *static_cast<Received*>(context);
     if (height == 0) {
         to.failure.assign(static_cast<const char*>(bytes), width);
         return;
     }
-    to.image.width = width, to.image.height = height, to.clipped = clipped;
+    to.image.width = width, to.image.height = height, to.notes = notes;
     to.image.rgba.resize(std::size_t{4} * width * height);
     std::memcpy(to.image.rgba.data(), bytes, to.image.rgba.size() * sizeof(float));
 }
@@ -86,9 +86,12 @@ Result<RasterImage> read_image(const std::string& path, bool bright, std::vector
     const ImageOutcome outcome = reinterpret_cast<DecodeImage>(decode.value())(
         path.c_str(), kMaxImageSide, kMaxImagePixels, most, receive, &received);
     if (outcome != ImageOutcome::Read) return failed(outcome, received.failure);
-    if (received.clipped > 0)
+    if (received.notes.clipped > 0)
         diagnostics.push_back({Severity::Warning, diag::kImageClipped,
-                               fmt::format("{} pixels beyond 0 to {} clipped", received.clipped, most), ""});
+                               fmt::format("{} pixels beyond 0 to {} clipped", received.notes.clipped, most), ""});
+    if (received.notes.more_images)
+        diagnostics.push_back({Severity::Warning, diag::kMoreImages,
+                               "the file holds more than one image (pages, parts, layers): the first was taken", ""});
     return std::move(received.image);
 }
 

@@ -13,9 +13,12 @@
 #include <OpenImageIO/strutil.h>
 
 #include "cli/png_module.h"
+#include "compiler/error_budget.h"
 
 namespace {
 
+namespace budget = fetexc::budget;
+using fetexc::cli::ImageNotes;
 using fetexc::cli::ImageOutcome;
 
 struct Failure {
@@ -28,18 +31,64 @@ struct ChannelPlan {
     int r = -1, g = -1, b = -1, a = -1;
 };
 
+/// R, G and B, or Y, or the only one besides alpha and depth, which is grey then whatever its name. Formats that don't
+/// name channels get such names from OpenImageIO. None: what the others mean can't be told.
 ChannelPlan plan_channels(const OIIO::ImageSpec& spec) {
     ChannelPlan plan{spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B"), spec.alpha_channel};
     if (plan.a < 0) plan.a = spec.channelindex("A");
     if (plan.r >= 0 && plan.g >= 0 && plan.b >= 0) return plan;
-    std::vector<int> colors;
-    for (int c = 0; c < spec.nchannels; ++c) {
-        if (c != plan.a && c != spec.z_channel) colors.push_back(c);
+    int grey = spec.channelindex("RY") < 0 && spec.channelindex("BY") < 0 ? spec.channelindex("Y") : -1;
+    const bool depth = spec.z_channel >= 0 && spec.z_channel != plan.a;
+    if (grey < 0 && spec.nchannels == 1 + (plan.a >= 0 ? 1 : 0) + (depth ? 1 : 0)) {
+        grey = 0;
+        while (grey == plan.a || grey == spec.z_channel)
+            ++grey;
     }
-    if (colors.empty()) return plan;
-    const bool grey = colors.size() < 3;
-    plan.r = colors[0], plan.g = colors[grey ? 0 : 1], plan.b = colors[grey ? 0 : 2];
+    plan.r = plan.g = plan.b = grey;
     return plan;
+}
+
+/// The first of them.
+std::string channel_names(const OIIO::ImageSpec& spec) {
+    constexpr int most = 8;
+    std::string names;
+    for (int c = 0; c < std::min(spec.nchannels, most); ++c)
+        names += (c > 0 ? ", " : std::string()) + std::string(spec.channel_name(c).substr(0, 64));
+    return spec.nchannels > most ? names + " and " + std::to_string(spec.nchannels - most) + " more" : names;
+}
+
+/// What has to be read for a plan: channels from begin on, and where they go among `step` floats of a pixel.
+struct ChannelReads {
+    struct Range {
+        int begin = 0, end = 0, to = 0;
+    };
+    std::vector<Range> ranges;
+    int step = 0;
+    ChannelPlan plan; ///< places among the floats
+};
+
+/// At once where they are close together, else one by one.
+ChannelReads reads_of(const ChannelPlan& plan) {
+    constexpr int close = 8;
+    ChannelReads out;
+    std::vector<int> wanted{plan.r, plan.g, plan.b};
+    if (plan.a >= 0) wanted.push_back(plan.a);
+    std::ranges::sort(wanted);
+    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+    if (wanted.back() - wanted.front() < close) {
+        out.step = wanted.back() - wanted.front() + 1;
+        out.ranges.push_back({wanted.front(), wanted.back() + 1, 0});
+    } else {
+        for (const int c : wanted)
+            out.ranges.push_back({c, c + 1, out.step++});
+    }
+    const auto place = [&](int channel) {
+        if (channel < 0) return -1;
+        const auto range = std::ranges::find_if(out.ranges, [&](const auto& r) { return channel < r.end; });
+        return range->to + channel - range->begin;
+    };
+    out.plan = {place(plan.r), place(plan.g), place(plan.b), place(plan.a)};
+    return out;
 }
 
 /// Integers are sRGB unless they say otherwise, floating point is linear unless it says otherwise.
@@ -54,8 +103,7 @@ double encode_srgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::
 
 /// In place, to 0 … most; whether the channel had to be clipped.
 bool clip(double& c, double most) {
-    constexpr double tolerance = 1e-4; // what resampling in linear light leaves of 0 and 1
-    const bool beyond = !(c >= -tolerance && c <= most + tolerance);
+    const bool beyond = !(c >= -budget::kSampleOvershoot && c <= most + budget::kSampleOvershoot);
     c = std::isnan(c) ? 0 : std::clamp(c, 0.0, most);
     return beyond;
 }
@@ -73,18 +121,20 @@ class ImageReader {
         spec_ = input->spec();
         if (const auto failure = check()) return failure;
         const ChannelPlan plan = plan_channels(spec_);
-        if (plan.r < 0) return Failure{ImageOutcome::Unsupported, "there is no colour channel"};
-        std::vector<float> pixels(static_cast<std::size_t>(spec_.image_pixels()) * spec_.nchannels);
-        if (!input->read_image(0, 0, 0, spec_.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-            return Failure{ImageOutcome::Unreadable, input->geterror()};
-        convert(pixels, plan, straight(*input));
+        if (plan.r < 0)
+            return Failure{ImageOutcome::Unsupported,
+                           "of its channels (" + channel_names(spec_) + ") none are R, G and B, or Y"};
+        width = static_cast<std::uint32_t>(spec_.full_width), height = static_cast<std::uint32_t>(spec_.full_height);
+        rgba.assign(std::size_t{4} * width * height, 0);
+        if (!read_strips(*input, reads_of(plan))) return Failure{ImageOutcome::Unreadable, input->geterror()};
         turn(spec_.get_int_attribute("Orientation", 1));
+        notes.more_images = input->seek_subimage(1, 0);
         return {};
     }
 
     std::uint32_t width = 0, height = 0;
     std::vector<float> rgba;
-    std::uint64_t clipped = 0;
+    ImageNotes notes;
 
   private:
     /// Display and data window.
@@ -103,7 +153,50 @@ class ImageReader {
                                                            std::to_string(max_side_) + " on a side and " +
                                                            std::to_string(max_pixels_) + " in all are the most"};
         }
+        // What the libraries below unpack at a time, of all channels.
+        const std::uint64_t at_once =
+            tiled() ? static_cast<std::uint64_t>(spec_.tile_width) * static_cast<std::uint64_t>(spec_.tile_height)
+                    : static_cast<std::uint64_t>(spec_.width) *
+                          static_cast<std::uint64_t>(std::min(spec_.height, kStripRows));
+        if (at_once > kMostAtOnce / spec_.pixel_bytes(true))
+            return Failure{ImageOutcome::TooLarge, std::to_string(spec_.nchannels) + " channels of " +
+                                                       std::to_string(at_once) + " pixels have to be read at once"};
         return {};
+    }
+
+    static constexpr int kStripRows = 256; ///< a multiple of the rows that any format packs together
+    static constexpr std::uint64_t kMostAtOnce = std::uint64_t{1}
+                                                 << 30; ///< bytes: a tile of 2^26 pixels of RGBA floats
+
+    [[nodiscard]] bool tiled() const { return spec_.tile_width > 0 && spec_.tile_height > 0; }
+
+    /// Whole rows of tiles, or of pixels, so that never more than the result is held for long.
+    bool read_strips(OIIO::ImageInput& input, const ChannelReads& reads) {
+        const int rows = tiled() ? spec_.tile_height : kStripRows;
+        const bool is_straight = straight(input), linear = is_linear(spec_);
+        const auto step = static_cast<std::size_t>(reads.step), row = step * static_cast<std::size_t>(spec_.width);
+        std::vector<float> pixels(row * static_cast<std::size_t>(std::min(rows, spec_.height)));
+        for (int y = 0; y < spec_.height; y += std::min(rows, spec_.height - y)) {
+            const int end = y + std::min(rows, spec_.height - y);
+            for (const ChannelReads::Range& range : reads.ranges) {
+                if (!read_rows(input, range, y, end, static_cast<OIIO::stride_t>(step), pixels.data() + range.to))
+                    return false;
+            }
+            for (int k = y; k < end; ++k)
+                convert(pixels.data() + static_cast<std::size_t>(k - y) * row, k, reads, is_straight, linear);
+        }
+        return true;
+    }
+
+    bool read_rows(OIIO::ImageInput& input, const ChannelReads::Range& range, int first, int end, OIIO::stride_t step,
+                   float* to) const {
+        const auto size = static_cast<OIIO::stride_t>(sizeof(float));
+        const OIIO::stride_t x_stride = step * size, y_stride = x_stride * spec_.width;
+        if (!tiled())
+            return input.read_scanlines(0, 0, spec_.y + first, spec_.y + end, spec_.z, range.begin, range.end,
+                                        OIIO::TypeDesc::FLOAT, to, x_stride, y_stride);
+        return input.read_tiles(0, 0, spec_.x, spec_.x + spec_.width, spec_.y + first, spec_.y + end, spec_.z,
+                                spec_.z + 1, range.begin, range.end, OIIO::TypeDesc::FLOAT, to, x_stride, y_stride);
     }
 
     /// PNG, whose alpha is straight by definition, doesn't say so.
@@ -112,19 +205,15 @@ class ImageReader {
                std::string_view(input.format_name()) == "png";
     }
 
-    /// What lies outside the data window is transparent.
-    void convert(const std::vector<float>& pixels, const ChannelPlan& plan, bool straight) {
-        width = static_cast<std::uint32_t>(spec_.full_width), height = static_cast<std::uint32_t>(spec_.full_height);
-        rgba.assign(std::size_t{4} * width * height, 0);
-        const bool linear = is_linear(spec_);
-        for (int y = 0; y < spec_.height; ++y) {
-            for (int x = 0; x < spec_.width; ++x) {
-                const int to_x = spec_.x + x - spec_.full_x, to_y = spec_.y + y - spec_.full_y;
-                if (to_x < 0 || to_y < 0 || to_x >= spec_.full_width || to_y >= spec_.full_height) continue;
-                const std::size_t from = (static_cast<std::size_t>(y) * spec_.width + x) * spec_.nchannels;
-                const std::size_t to = 4 * (static_cast<std::size_t>(to_y) * width + static_cast<std::size_t>(to_x));
-                convert_pixel(pixels.data() + from, plan, straight, linear, rgba.data() + to);
-            }
+    /// Row y of the data window. What lies outside the window is transparent.
+    void convert(const float* from, int y, const ChannelReads& reads, bool straight, bool linear) {
+        const int to_y = spec_.y + y - spec_.full_y;
+        if (to_y < 0 || to_y >= spec_.full_height) return;
+        for (int x = 0; x < spec_.width; ++x, from += reads.step) {
+            const int to_x = spec_.x + x - spec_.full_x;
+            if (to_x < 0 || to_x >= spec_.full_width) continue;
+            const std::size_t to = 4 * (static_cast<std::size_t>(to_y) * width + static_cast<std::size_t>(to_x));
+            convert_pixel(from, reads.plan, straight, linear, rgba.data() + to);
         }
     }
 
@@ -141,7 +230,7 @@ class ImageReader {
             to[k++] = to_value(c * alpha);
         }
         to[3] = to_value(alpha);
-        clipped += beyond ? 1 : 0;
+        notes.clipped += beyond ? 1 : 0;
     }
 
     [[nodiscard]] float to_value(double c) const {
@@ -186,10 +275,10 @@ fetexc_decode_image(const char* path, std::uint32_t max_side, std::uint64_t max_
         failure = Failure{ImageOutcome::Unreadable, e.what()};
     }
     if (!failure) {
-        sink(context, reader.rgba.data(), reader.width, reader.height, reader.clipped);
+        sink(context, reader.rgba.data(), reader.width, reader.height, reader.notes);
         return ImageOutcome::Read;
     }
     if (failure->why.empty()) failure->why = "unknown error";
-    sink(context, failure->why.data(), static_cast<std::uint32_t>(failure->why.size()), 0, 0);
+    sink(context, failure->why.data(), static_cast<std::uint32_t>(failure->why.size()), 0, {});
     return failure->outcome;
 }

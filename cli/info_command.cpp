@@ -11,6 +11,7 @@
 #include "cli/fetex_input.h"
 #include "cli/messages.h"
 #include "cli/options.h"
+#include "cli/report.h"
 #include "formats/fbt_mip.h"
 
 namespace fetexc::cli {
@@ -110,19 +111,6 @@ Json traits_json(const fetex::FbtTraits& traits) {
             {"maxEntries", traits.max_entries},
             {"maxBands", traits.max_bands},
             {"maxDepth", traits.max_depth}};
-}
-
-/// As `compile --samples` names it.
-const char* sample_format_name(fetex::FbtSampleFormat format) {
-    switch (format) {
-    case fetex::FbtSampleFormat::Rgba8:
-        return "8";
-    case fetex::FbtSampleFormat::Rgba16:
-        return "16";
-    case fetex::FbtSampleFormat::Rgba16F:
-        return "float";
-    }
-    return "";
 }
 
 /// Of what has samples in a format at all.

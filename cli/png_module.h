@@ -26,14 +26,21 @@ using DecodePng = int (*)(const std::uint8_t* bytes, std::size_t size, std::uint
 /// How a picture of any kind was read.
 enum class ImageOutcome : int { Read = 0, Unreadable, TooLarge, Unsupported };
 
-/// Takes premultiplied, sRGB-encoded RGBA floats, 65535 = 1, rows from the top, and the number of pixels that were
-/// clipped; or on failure the reason as width bytes of UTF-8, height 0.
-using ImageSink = void (*)(void* context, const void* bytes, std::uint32_t width, std::uint32_t height,
-                           std::uint64_t clipped);
+/// What the user should know of a picture that was read.
+struct ImageNotes {
+    std::uint64_t clipped = 0; ///< pixels
+    bool more_images = false;  ///< the file holds others: pages, parts, layers, frames
+};
 
-/// Any image that OpenImageIO reads, turned as its Orientation says; of an EXR the display window. Refused before
-/// anything is decoded: sides of more than max_side, more than max_pixels. Straight, encoded colours are clipped to 0 …
-/// most: at 1 they are rounded to 16 bits, above not. Calls the sink once.
+/// Takes premultiplied, sRGB-encoded RGBA floats, 65535 = 1, rows from the top; or on failure the reason as width bytes
+/// of UTF-8, height 0.
+using ImageSink = void (*)(void* context, const void* bytes, std::uint32_t width, std::uint32_t height,
+                           const ImageNotes& notes);
+
+/// Any image that OpenImageIO reads, of several the first; turned as its Orientation says; of an EXR the display
+/// window. Colours are R, G and B, or Y, or a single channel; others are Unsupported. Refused before anything is
+/// decoded: sides of more than max_side, more than max_pixels, more than 1 GiB to be unpacked at once. Straight,
+/// encoded colours are clipped to 0 … most: at 1 they are rounded to 16 bits, above not. Calls the sink once.
 using DecodeImage = ImageOutcome (*)(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most,
                                      ImageSink sink, void* context);
 

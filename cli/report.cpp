@@ -265,6 +265,7 @@ Json outcome_json(const CompileOutcome& o) {
                  {"milliseconds", o.milliseconds},
                  {"scene", scene_json(o.report.scene)}};
     if (fbt) {
+        json["samples"] = sample_format_name(o.samples);
         json["planar"] = planar_json(o.report.planar);
         json["fbt"] = fbt_json(o.report.fbt);
         json["mips"] = mips_json(o.report.mips);
@@ -280,12 +281,27 @@ std::string fbt_report_text(const CompileOutcome& o) {
     const double texels = static_cast<double>(o.width) * o.height;
     std::string text = fmt::format("  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel)\n", o.width,
                                    o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels);
+    text += fmt::format("  samples    {}\n", o.samples == fetex::FbtSampleFormat::Rgba16F
+                                                 ? "16-bit floats"
+                                                 : fmt::format("{} bits a channel", sample_format_name(o.samples)));
     text += planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);
     text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
     return text;
 }
 
 } // namespace
+
+const char* sample_format_name(fetex::FbtSampleFormat format) {
+    switch (format) {
+    case fetex::FbtSampleFormat::Rgba8:
+        return "8";
+    case fetex::FbtSampleFormat::Rgba16:
+        return "16";
+    case fetex::FbtSampleFormat::Rgba16F:
+        return "float";
+    }
+    return "";
+}
 
 std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
     std::vector<std::string> parts;

@@ -29,11 +29,15 @@ struct CompileOutcome {
     std::uint32_t width = 0, height = 0; ///< texels, of the FBT
     std::uint64_t file_bytes = 0;
     std::uint64_t gpu_bytes = 0; ///< of the FBT
+    fetex::FbtSampleFormat samples = fetex::FbtSampleFormat::Rgba8;
     fetex::FbtTraits traits;
     std::optional<BilevelOutcome> bilevel = {};
     CompileReport report;    ///< without an FBT: what the front end did, the image's size, the diagnostics
     double milliseconds = 0; ///< wall clock, front end and compiler; the only figure here that differs between runs
 };
+
+/// As `compile --samples` names it: 8, 16, float.
+const char* sample_format_name(fetex::FbtSampleFormat format);
 
 /// Parts of the sampler that this asset's shader does without, e.g. "cubics", "bands".
 std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits);

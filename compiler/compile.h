@@ -102,14 +102,27 @@ struct FeaturedImage {
     double invalidate = 1; ///< pixels, ≥ 0: in the infinity norm; nearer to a feature a pixel is no sample (FBT §4.3)
 };
 
-/// Builds the FBT of an image. Errors: as above.
+/// Bytes of memory that the FBT of an image may take on the way, about: what a pixel needs, and a region of a texel (a
+/// texel without features is one), where pixels and texels are in no simple ratio (compiler/fbt/README.md).
+std::uint64_t image_memory(std::uint64_t pixels, std::uint64_t regions);
+
+/// More is refused: with it, the largest image at a texel a pixel can be made on a machine with 24 GiB.
+inline constexpr std::uint64_t kMostImageMemory = std::uint64_t{20} << 30;
+
+/// Builds the FBT of an image. Errors: as above; kImageMemory.
 Result<FbtBuild> compile_fbt(const FeaturedImage& picture, const CompileOptions& options,
                              const ProgressSink& progress = {});
 
 /// The FBT at the size, in texels on the longer side, with the cheapest lookup in at most `max_bytes` on the GPU: the
-/// largest that fits. Without a limit (0) the smallest power of two of which twice as many texels make lookups cheaper
-/// by less than a quarter. options.size is ignored. Errors: those of compile_fbt; kFbtBudget if no size fits.
+/// largest that fits, to 1/64. Without a limit (0) the smallest power of two of which twice as many texels make lookups
+/// cheaper by less than a quarter. options.size is ignored. A larger size that can't be built, for want of memory too,
+/// ends the search. Errors: those of compile_fbt; kFbtBudget if no size fits.
 Result<FbtBuild> compile_fbt_at_chosen_size(const Scene& scene, const CompileOptions& options, std::uint64_t max_bytes,
                                             const ProgressSink& progress = {});
+
+/// The same of an image, with a limit up to as many texels as pixels: more show nothing more. Without, from there on
+/// twice or four times as many along a side while lookups get cheaper by a quarter: fewer would show less of the image.
+Result<FbtBuild> compile_fbt_at_chosen_size(const FeaturedImage& picture, const CompileOptions& options,
+                                            std::uint64_t max_bytes, const ProgressSink& progress = {});
 
 } // namespace fetexc

@@ -26,8 +26,9 @@ inline constexpr int kSvgTooManyPixels = 1012;   ///< raster layers or bitmaps b
 // Images and their features (owner: compiler/raster, cli): errors
 inline constexpr int kImageUnreadable = 1101;  ///< an image that is damaged, or of a kind that OpenImageIO doesn't read
 inline constexpr int kImageTooLarge = 1102;    ///< an image of more than 16384 pixels on a side, or more than 2^26
-inline constexpr int kImageUnsupported = 1103; ///< an image with depth (deep data, a volume), or without a colour channel
+inline constexpr int kImageUnsupported = 1103; ///< an image with depth (deep data, a volume), or of whose channels none are R, G and B, or Y, or the only one
 inline constexpr int kTraceFailed = 1104;      ///< features couldn't be traced
+inline constexpr int kImageMemory = 1105;      ///< an image's texture would take more than 20 GiB of memory on the way: too many pixels and texels
 
 // SVG front end: warnings, something of the drawing is missing or changed
 inline constexpr int kSvgTextWithoutFonts = 2001;  ///< text is not drawn, no fonts were given
@@ -55,6 +56,7 @@ inline constexpr int kFeaturesUnclipped = 2053;  ///< clips and masks in the fea
 inline constexpr int kImageClipped = 2054;       ///< pixels beyond 0…1 (`--samples float`: 0…65504), or not finite, were clipped
 inline constexpr int kRegionsUnsampled = 2055;   ///< parts without a valid pixel to reach took prefiltered ones
 inline constexpr int kTexelsTooSmall = 2056;     ///< more than four texels a pixel along a side: gradients may stop before they reach a feature
+inline constexpr int kMoreImages = 2057;         ///< the file holds more images (pages, parts, layers, frames): the first was taken
 
 // SVG front end: notes, how something is represented
 inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer

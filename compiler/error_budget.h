@@ -202,6 +202,11 @@ inline constexpr double kPatchRidge = 0x1p-10;
 /// lines in place of curves, the rest for roundings (2^14 pixels to 2^-39 each).
 inline constexpr double kInvalidationSlack = 0x1p-9;
 
+/// Colour channel of an image: beyond 0 and 1 by less, nothing is said of clipping: half a step of 12 bits, the finest
+/// that cameras and film scans store in integers; what resampling in linear light, or their conversion to floats, leaves
+/// around 0 and 1. It shows in no sample of 8 bits.
+inline constexpr double kSampleOvershoot = 0x1p-13;
+
 /// Against a squared error of 1 a texel, where texels are no smaller than pixels: what a second difference of an
 /// image's corner values counts. (Smaller texels: times their number in a pixel, which makes it the same of the surface
 /// in pixels; the anchor below divided by it.) A detail of two texels' wavelength, that pixel centres don't see at the corners, is then left out; of four texels, 80 % are
@@ -311,5 +316,14 @@ inline constexpr int kFitPaperSteps = 5;
 
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;
+
+/// Parts of a pixel: nine pixels that a straight edge covers otherwise than they say, by more in the root mean square,
+/// hold a corner or several edges. A corner of a right angle in the middle misfits by 0.1 or more; roundings of 8 bits by
+/// 0.002, an edge round with a radius of five pixels by 0.02.
+inline constexpr double kEdgeLineMisfit = 0.04;
+
+/// Radians and pixels over which an edge's coverages are differentiated, and the part of its diagonal product below which
+/// a normal matrix says nothing. Decides nothing else: a step that doesn't fit better isn't taken.
+inline constexpr double kEdgeLineDifference = 0x1p-20;
 
 } // namespace fetexc::budget

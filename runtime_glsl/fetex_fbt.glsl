@@ -139,7 +139,8 @@ bool fetexFbtCrossesQuadratic(vec2 a, vec2 b, vec2 c, vec2 p, bool negative) {
 #if (FETEX_FBT_DEGREES & 8) != 0
 // Laguerre's step, kept in a bracket: 6 steps leave at most 5e-7 texel on every monotone cubic of the u16 grid, flat
 // ends and inflections included (Newton: 8 steps leave 7e-4 of the inflected ones wrong by up to 2e-2). The bracket
-// test includes its ends, and a step that isn't a number fails it.
+// test includes its ends, and a step that isn't a number fails it. The step has cycles of two, from which the bracket's
+// middle helps.
 float fetexFbtSolveCubic(float y0, float y1, float y2, float y3, float y, int steps) {
     float up = y3 >= y0 ? 1.0 : -1.0;
     float a = up * (y3 - y0 + 3.0 * (y1 - y2));
@@ -155,7 +156,8 @@ float fetexFbtSolveCubic(float y0, float y1, float y2, float y3, float y, int st
         float f1 = (3.0 * a * t + 2.0 * b) * t + c;
         float f2 = 6.0 * a * t + 2.0 * b;
         float next = t - 3.0 * f / (f1 + sqrt(max(4.0 * f1 * f1 - 6.0 * f * f2, 0.0)));
-        t = next >= low && next <= high ? next : 0.5 * (low + high);
+        bool cycles = k == 3 && high - low > 0.25; // steps from end to end of the bracket
+        t = next >= low && next <= high && !cycles ? next : 0.5 * (low + high);
     }
     return t;
 }
@@ -172,75 +174,103 @@ bool fetexFbtCrossesCubic(vec2 a, vec2 b, vec2 c, vec2 d, vec2 p, bool negative)
 }
 #endif
 
-// Whether the run's pieces are crossed an odd number of times (FBT section 4.5). entry: the first record of the entry at
-// `index` (SPEC section 3.3).
-bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
-    uint count = entry.x & 0x3ffu, degree = (entry.x >> 10u) & 3u;
-    uint at = index * 4u + 2u; // word of the first point
-    uvec4 a = entry;           // record that holds it
-#if FETEX_FBT_SHARED
-    if ((entry.x & 0x100000u) != 0u) {
-        at = entry.z;
-        a = fetexFbtRecord(at >> 2u);
-    }
-#endif
+// The first word of an entry (SPEC section 3.3).
+uint fetexFbtPieces(uint bits, uint degree) { return ((bits >> 10u) & 3u) == degree ? bits & 0x3ffu : 0u; }
+bool fetexFbtIsLastRun(uint bits) { return (bits & 0x4000u) != 0u; } // of its feature
+bool fetexFbtIsLast(uint bits) { return (bits & 0x8000u) != 0u; }    // of its list
+
+// Whether the ray runs along y; whether towards smaller coordinates.
+bool fetexFbtRaySwapped(uint bits) {
 #if (FETEX_FBT_DIRECTIONS & 12) == 0
-    const bool swapped = false;
+    return false;
 #elif (FETEX_FBT_DIRECTIONS & 3) == 0
-    const bool swapped = true;
+    return true;
 #else
-    bool swapped = (entry.x & 0x2000u) != 0u;
+    return (bits & 0x2000u) != 0u;
 #endif
+}
+
+bool fetexFbtRayNegative(uint bits) {
 #if (FETEX_FBT_DIRECTIONS & 10) == 0
-    const bool negative = false;
+    return false;
 #elif (FETEX_FBT_DIRECTIONS & 5) == 0
-    const bool negative = true;
+    return true;
 #else
-    bool negative = (entry.x & 0x1000u) != 0u;
+    return (bits & 0x1000u) != 0u;
 #endif
+}
+
+// Goes through the points of a run.
+struct FetexFbtPoints {
+    uint at;      // word of the point
+    uvec4 record; // that holds it
+};
+
+// At the first point. entry: the first record of the entry at `index`.
+FetexFbtPoints fetexFbtRunPoints(uvec4 entry, uint index) {
+    FetexFbtPoints points = FetexFbtPoints(index * 4u + 2u, entry);
+#if FETEX_FBT_SHARED
+    if ((entry.x & 0x100000u) != 0u) points = FetexFbtPoints(entry.z, fetexFbtRecord(entry.z >> 2u));
+#endif
+    return points;
+}
+
+uint fetexFbtFirstPoint(FetexFbtPoints points) {
+#if FETEX_FBT_SHARED
+    return fetexFbtWord(points.record, points.at & 3u);
+#else
+    return points.record.z;
+#endif
+}
+
+uint fetexFbtNextPoint(inout FetexFbtPoints points) {
+    ++points.at;
+    uint slot = points.at & 3u;
+    if (slot == 0u) points.record = fetexFbtRecord(points.at >> 2u);
+    return fetexFbtWord(points.record, slot);
+}
+
+// The points of a quadratic or a cubic; goes to its last, the first of the next piece.
+uvec4 fetexFbtNextPiece(inout FetexFbtPoints points, uint degree) {
+    uint slot = points.at & 3u;
+    uvec4 next = points.record;
+    if (slot + degree > 3u) next = fetexFbtRecord((points.at >> 2u) + 1u);
+    uvec4 words = fetexFbtWords(points.record, next, slot);
+    points = FetexFbtPoints(points.at + degree, next);
+    return words;
+}
+
+// Whether the run's pieces are crossed an odd number of times (FBT section 4.5). entry: the first record of the entry at
+// `index`.
+bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
+    FetexFbtPoints points = fetexFbtRunPoints(entry, index);
+    bool swapped = fetexFbtRaySwapped(entry.x), negative = fetexFbtRayNegative(entry.x);
     vec2 p = swapped ? local.yx : local;
     bool odd = false;
     // Loop counts rather than branches: software renderers execute both sides of a branch, but no loop of length 0.
 #if (FETEX_FBT_DEGREES & 2) != 0
-    uint lines = degree == 1u ? count : 0u;
+    uint lines = fetexFbtPieces(entry.x, 1u);
     if (lines > 0u) {
-#if FETEX_FBT_SHARED
-        vec2 start = fetexFbtPoint(fetexFbtWord(a, at & 3u), swapped);
-#else
-        vec2 start = fetexFbtPoint(entry.z, swapped);
-#endif
+        vec2 start = fetexFbtPoint(fetexFbtFirstPoint(points), swapped);
         for (uint k = 0u; k < lines; ++k) {
-            ++at;
-            uint slot = at & 3u;
-            if (slot == 0u) a = fetexFbtRecord(at >> 2u);
-            vec2 end = fetexFbtPoint(fetexFbtWord(a, slot), swapped);
+            vec2 end = fetexFbtPoint(fetexFbtNextPoint(points), swapped);
             odd = odd != fetexFbtCrossesLine(start, end, p, negative);
             start = end;
         }
     }
 #endif
 #if (FETEX_FBT_DEGREES & 4) != 0
-    uint quadratics = degree == 2u ? count : 0u;
+    uint quadratics = fetexFbtPieces(entry.x, 2u);
     for (uint k = 0u; k < quadratics; ++k) {
-        uint slot = at & 3u;
-        uvec4 b = a;
-        if (slot >= 2u) b = fetexFbtRecord((at >> 2u) + 1u);
-        uvec4 words = fetexFbtWords(a, b, slot);
-        at += 2u;
-        a = b;
+        uvec4 words = fetexFbtNextPiece(points, 2u);
         odd = odd != fetexFbtCrossesQuadratic(fetexFbtPoint(words.x, swapped), fetexFbtPoint(words.y, swapped),
                                               fetexFbtPoint(words.z, swapped), p, negative);
     }
 #endif
 #if (FETEX_FBT_DEGREES & 8) != 0
-    uint cubics = degree == 3u ? count : 0u;
+    uint cubics = fetexFbtPieces(entry.x, 3u);
     for (uint k = 0u; k < cubics; ++k) {
-        uint slot = at & 3u;
-        uvec4 b = a;
-        if (slot != 0u) b = fetexFbtRecord((at >> 2u) + 1u);
-        uvec4 words = fetexFbtWords(a, b, slot);
-        at += 3u;
-        a = b;
+        uvec4 words = fetexFbtNextPiece(points, 3u);
         odd = odd != fetexFbtCrossesCubic(fetexFbtPoint(words.x, swapped), fetexFbtPoint(words.y, swapped),
                                           fetexFbtPoint(words.z, swapped), fetexFbtPoint(words.w, swapped), p, negative);
     }
@@ -248,25 +278,30 @@ bool fetexFbtRunParity(uvec4 entry, uint index, vec2 local) {
     return odd;
 }
 
+// A word, counted from a record on.
+uint fetexFbtWordFrom(uint index, uint word) { return fetexFbtWord(fetexFbtRecord(index + (word >> 2u)), word & 3u); }
+
 #if FETEX_FBT_BANDS
-// The band that holds y. At most 2^15 bands: their ends are different u16.
-uint fetexFbtFindBandIndex(uint directory, float y) {
-    uint low = 0u, high = fetexFbtRecord(directory).x - 1u;
-    for (int k = 0; k < 16 && low < high; ++k) {
-        uint middle = (low + high) >> 1u;
-        uint at = 1u + (middle >> 1u);
-        uint ends = fetexFbtWord(fetexFbtRecord(directory + (at >> 2u)), at & 3u);
-        float end = float((middle & 1u) == 0u ? ends & 0xffffu : ends >> 16u) * (1.0 / 32768.0) - 0.5;
-        if (y < end) high = middle; else low = middle + 1u;
-    }
-    return low;
+// The band directory (SPEC section 3.2): how many bands, where one ends, and the record of its entry list.
+uint fetexFbtBandCount(uint directory) { return fetexFbtRecord(directory).x; }
+
+float fetexFbtBandEnd(uint directory, uint band) {
+    uint ends = fetexFbtWordFrom(directory, 1u + (band >> 1u));
+    return float((band & 1u) == 0u ? ends & 0xffffu : ends >> 16u) * (1.0 / 32768.0) - 0.5;
 }
 
-// Record of the entry list of the band that holds y.
-uint fetexFbtFindBand(uint directory, float y) {
-    uint bands = fetexFbtRecord(directory).x;
-    uint list = 1u + ((bands + 1u) >> 1u) + fetexFbtFindBandIndex(directory, y);
-    return fetexFbtWord(fetexFbtRecord(directory + (list >> 2u)), list & 3u);
+uint fetexFbtBandList(uint directory, uint bands, uint band) {
+    return fetexFbtWordFrom(directory, 1u + ((bands + 1u) >> 1u) + band);
+}
+
+// The band that holds y. At most 2^15 bands: their ends are different u16.
+uint fetexFbtFindBand(uint directory, uint bands, float y) {
+    uint low = 0u, high = bands - 1u;
+    for (int k = 0; k < 16 && low < high; ++k) {
+        uint middle = (low + high) >> 1u;
+        if (y < fetexFbtBandEnd(directory, middle)) high = middle; else low = middle + 1u;
+    }
+    return low;
 }
 #endif
 
@@ -278,22 +313,32 @@ uint fetexFbtEntryWords(uint bits) {
     return (bits & 0x3ffu) * ((bits >> 10u) & 3u) + 3u;
 }
 
-// Model and sample of the first feature, in order, that has the point inside; else of the rest (FBT section 4.5).
+// The record of the entry after the one at `index`.
+uint fetexFbtNextEntry(uint index, uint bits) { return index + ((fetexFbtEntryWords(bits) + 3u) >> 2u); }
+
+// Model and sample of a feature, of the entry of its last run; and of the rest, of the last entry.
+uvec2 fetexFbtFeatureRegion(uvec4 entry) { return uvec2((entry.x >> 16u) & 3u, entry.y); }
+
+uvec2 fetexFbtRestRegion(uvec4 entry, uint index) {
+    uint words = fetexFbtEntryWords(entry.x), rest = entry.w;
+    if (words > 3u) rest = fetexFbtWordFrom(index, words);
+    return uvec2((entry.x >> 18u) & 3u, rest);
+}
+
+// Region of the first feature, in order, that has the point inside; else of the rest (FBT section 4.5).
 uvec2 fetexFbtFindRegion(uint index, vec2 local) {
     uvec4 entry = uvec4(0u);
     bool odd = false;
     for (int k = 0; k < FETEX_FBT_MAX_ENTRIES; ++k) {
         entry = fetexFbtRecord(index);
         odd = odd != fetexFbtRunParity(entry, index, local);
-        bool lastRun = (entry.x & 0x4000u) != 0u, last = (entry.x & 0x8000u) != 0u;
-        if ((odd && lastRun) || last) break;
+        bool lastRun = fetexFbtIsLastRun(entry.x);
+        if ((odd && lastRun) || fetexFbtIsLast(entry.x)) break;
         odd = odd && !lastRun;
-        index += (fetexFbtEntryWords(entry.x) + 3u) >> 2u;
+        index = fetexFbtNextEntry(index, entry.x);
     }
-    if (odd) return uvec2((entry.x >> 16u) & 3u, entry.y);
-    uint rest = fetexFbtEntryWords(entry.x);
-    if (rest > 3u) entry.w = fetexFbtWord(fetexFbtRecord(index + (rest >> 2u)), rest & 3u);
-    return uvec2((entry.x >> 18u) & 3u, entry.w);
+    if (odd) return fetexFbtFeatureRegion(entry);
+    return fetexFbtRestRegion(entry, index);
 }
 
 #endif // FETEX_FBT_FEATURES
@@ -356,7 +401,10 @@ vec4 fetexFbtSampleTexel(ivec2 base, vec2 local) {
     if (kind == 1u || kind == 2u) {
         uint first = texel & 0x3fffffffu;
 #if FETEX_FBT_BANDS
-        if (kind == 2u) first = fetexFbtFindBand(first, local.y);
+        if (kind == 2u) {
+            uint bands = fetexFbtBandCount(first);
+            first = fetexFbtBandList(first, bands, fetexFbtFindBand(first, bands, local.y));
+        }
 #endif
         region = fetexFbtFindRegion(first, local);
     }
@@ -364,9 +412,17 @@ vec4 fetexFbtSampleTexel(ivec2 base, vec2 local) {
     return fetexFbtShade(base, local, region);
 }
 
-vec4 fetexFbtSample(vec2 uv) {
+// Integer texel and offset in it, [0,1]; uv is clamped.
+void fetexFbtLocate(vec2 uv, out ivec2 base, out vec2 local) {
     ivec2 size = fetexFbtSize();
     vec2 position = clamp(uv, 0.0, 1.0) * vec2(size);
-    ivec2 base = min(ivec2(position), size - 1);
-    return fetexFbtSampleTexel(base, min(position - vec2(base), vec2(65535.0 / 65536.0)));
+    base = min(ivec2(position), size - 1);
+    local = position - vec2(base);
+}
+
+vec4 fetexFbtSample(vec2 uv) {
+    ivec2 base;
+    vec2 local;
+    fetexFbtLocate(uv, base, local);
+    return fetexFbtSampleTexel(base, min(local, vec2(65535.0 / 65536.0)));
 }

@@ -27,22 +27,8 @@ FetexFbtFrame fetexFbtBoxFrame(vec2 low, vec2 high) {
     return FetexFbtFrame((low + 0.5) * 32768.0, (1.0 / 32768.0) / max(high - low, 1e-7), false, false);
 }
 
-FetexFbtFrame fetexFbtRayFrame(FetexFbtFrame frame, uint bits) {
-#if (FETEX_FBT_DIRECTIONS & 12) == 0
-    frame.swapped = false;
-#elif (FETEX_FBT_DIRECTIONS & 3) == 0
-    frame.swapped = true;
-#else
-    frame.swapped = (bits & 0x2000u) != 0u;
-#endif
-#if (FETEX_FBT_DIRECTIONS & 10) == 0
-    frame.negative = false;
-#elif (FETEX_FBT_DIRECTIONS & 5) == 0
-    frame.negative = true;
-#else
-    frame.negative = (bits & 0x1000u) != 0u;
-#endif
-    return frame;
+FetexFbtFrame fetexFbtRayFrame(FetexFbtFrame box, uint bits) {
+    return FetexFbtFrame(box.origin, box.scale, fetexFbtRaySwapped(bits), fetexFbtRayNegative(bits));
 }
 
 vec2 fetexFbtFramed(FetexFbtFrame frame, uint word) {
@@ -162,27 +148,17 @@ struct FetexFbtChain {
 
 // Adds a run's pieces to a chain. entry: the first record of the entry at `index`. continued: the box leaves the texel.
 void fetexFbtRunArea(uvec4 entry, uint index, FetexFbtFrame box, bool continued, inout FetexFbtChain chain) {
-    uint count = entry.x & 0x3ffu, degree = (entry.x >> 10u) & 3u;
-    uint at = index * 4u + 2u; // word of the first point
-    uvec4 a = entry;           // record that holds it
-#if FETEX_FBT_SHARED
-    if ((entry.x & 0x100000u) != 0u) {
-        at = entry.z;
-        a = fetexFbtRecord(at >> 2u);
-    }
-#endif
+    FetexFbtPoints points = fetexFbtRunPoints(entry, index);
     FetexFbtFrame frame = fetexFbtRayFrame(box, entry.x);
     float sum = 0.0;
-    uint startWord = fetexFbtWord(a, at & 3u);
+    uint startWord = fetexFbtFirstPoint(points);
     vec2 start = fetexFbtFramed(frame, startWord), first = start;
     if (!chain.begun) chain.first = startWord;
     vec2 afterStart = start, beforeEnd = start;
 #if (FETEX_FBT_DEGREES & 2) != 0
-    uint lines = degree == 1u ? count : 0u;
+    uint lines = fetexFbtPieces(entry.x, 1u);
     for (uint k = 0u; k < lines; ++k) {
-        ++at;
-        if ((at & 3u) == 0u) a = fetexFbtRecord(at >> 2u);
-        startWord = fetexFbtWord(a, at & 3u);
+        startWord = fetexFbtNextPoint(points);
         vec2 end = fetexFbtFramed(frame, startWord);
         sum += fetexFbtLineArea(start, end);
         if (k == 0u) afterStart = end;
@@ -191,14 +167,9 @@ void fetexFbtRunArea(uvec4 entry, uint index, FetexFbtFrame box, bool continued,
     }
 #endif
 #if (FETEX_FBT_DEGREES & 4) != 0
-    uint quadratics = degree == 2u ? count : 0u;
+    uint quadratics = fetexFbtPieces(entry.x, 2u);
     for (uint k = 0u; k < quadratics; ++k) {
-        uint slot = at & 3u;
-        uvec4 b = a;
-        if (slot >= 2u) b = fetexFbtRecord((at >> 2u) + 1u);
-        uvec4 words = fetexFbtWords(a, b, slot);
-        at += 2u;
-        a = b;
+        uvec4 words = fetexFbtNextPiece(points, 2u);
         vec2 control = fetexFbtFramed(frame, words.y), end = fetexFbtFramed(frame, words.z);
         sum += fetexFbtQuadraticArea(start, control, end);
         if (k == 0u) afterStart = words.y != words.x ? control : end;
@@ -208,14 +179,9 @@ void fetexFbtRunArea(uvec4 entry, uint index, FetexFbtFrame box, bool continued,
     }
 #endif
 #if (FETEX_FBT_DEGREES & 8) != 0
-    uint cubics = degree == 3u ? count : 0u;
+    uint cubics = fetexFbtPieces(entry.x, 3u);
     for (uint k = 0u; k < cubics; ++k) {
-        uint slot = at & 3u;
-        uvec4 b = a;
-        if (slot != 0u) b = fetexFbtRecord((at >> 2u) + 1u);
-        uvec4 words = fetexFbtWords(a, b, slot);
-        at += 3u;
-        a = b;
+        uvec4 words = fetexFbtNextPiece(points, 3u);
         vec2 control1 = fetexFbtFramed(frame, words.y), control2 = fetexFbtFramed(frame, words.z);
         vec2 end = fetexFbtFramed(frame, words.w);
         sum += fetexFbtCubicArea(start, control1, control2, end);
@@ -226,14 +192,13 @@ void fetexFbtRunArea(uvec4 entry, uint index, FetexFbtFrame box, bool continued,
     }
 #endif
     chain.last = startWord;
-    bool lastRun = (entry.x & 0x4000u) != 0u;
     // Open chains go on straight beyond the texel.
     if (!chain.begun) {
         chain.start = first;
         chain.beyondStart = fetexFbtFarPoint(first, afterStart);
     }
     chain.begun = true;
-    bool extends = continued && lastRun && chain.first != chain.last;
+    bool extends = continued && fetexFbtIsLastRun(entry.x) && chain.first != chain.last;
     float beyond = fetexFbtLineArea(start, fetexFbtFarPoint(start, beforeEnd)) - fetexFbtLineArea(chain.start, chain.beyondStart);
     chain.area += sum + (extends ? beyond : 0.0);
 }
@@ -263,12 +228,10 @@ vec4 fetexFbtListArea(uint index, vec2 low, vec2 high, vec4 corners) {
     float total = 0.0;
     FetexFbtChain chain = FetexFbtChain(0.0, false, 0u, 0u, vec2(0.0), vec2(0.0));
     uvec4 entry = uvec4(0u);
-    uint words = 0u;
     for (int k = 0; k < FETEX_FBT_MAX_ENTRIES; ++k) {
         entry = fetexFbtRecord(index);
         fetexFbtRunArea(entry, index, box, continued, chain);
-        words = fetexFbtEntryWords(entry.x);
-        if ((entry.x & 0x4000u) != 0u) {
+        if (fetexFbtIsLastRun(entry.x)) {
             float inside = (entry.x & 0x3ffu) != 0u ? clamp(abs(chain.area), 0.0, 1.0) : 0.0, part = inside;
 #if FETEX_FBT_MAX_DEPTH > 0
             // Depths from 7 on are one: taken for features each around the one before.
@@ -280,17 +243,16 @@ vec4 fetexFbtListArea(uint index, vec2 low, vec2 high, vec4 corners) {
 #else
             outermost += inside;
 #endif
-            sum += part * fetexFbtRegionColor(uvec2((entry.x >> 16u) & 3u, entry.y), middle, corners);
+            sum += part * fetexFbtRegionColor(fetexFbtFeatureRegion(entry), middle, corners);
             total += part;
             chain.area = 0.0;
             chain.begun = false;
         }
-        if ((entry.x & 0x8000u) != 0u) break;
-        index += (words + 3u) >> 2u;
+        if (fetexFbtIsLast(entry.x)) break;
+        index = fetexFbtNextEntry(index, entry.x);
     }
-    if (words > 3u) entry.w = fetexFbtWord(fetexFbtRecord(index + (words >> 2u)), words & 3u);
     float rest = max(1.0 - outermost, 0.0);
-    sum += rest * fetexFbtRegionColor(uvec2((entry.x >> 18u) & 3u, entry.w), middle, corners);
+    sum += rest * fetexFbtRegionColor(fetexFbtRestRegion(entry, index), middle, corners);
     return sum / max(total + rest, 1e-20);
 }
 
@@ -298,24 +260,19 @@ vec4 fetexFbtListArea(uint index, vec2 low, vec2 high, vec4 corners) {
 vec4 fetexFbtFeatureArea(uint texel, vec2 low, vec2 high, vec4 corners) {
     uint first = texel & 0x3fffffffu;
 #if FETEX_FBT_BANDS
-    int bands = 1, band = 0;
-    uint lists = 0u, directory = first * 4u;
-    if ((texel >> 30u) == 2u) {
-        bands = int(fetexFbtRecord(first).x);
-        band = int(fetexFbtFindBandIndex(first, low.y));
-        lists = directory + 1u + uint((bands + 1) >> 1);
+    uint bands = 1u, band = 0u;
+    bool banded = (texel >> 30u) == 2u;
+    if (banded) {
+        bands = fetexFbtBandCount(first);
+        band = fetexFbtFindBand(first, bands, low.y);
     }
     vec4 sum = vec4(0.0);
     float y = low.y;
     for (; band < bands; ++band) {
         float end = high.y;
-        if (band + 1 < bands) {
-            uint at = directory + 1u + uint(band >> 1);
-            uint ends = fetexFbtWord(fetexFbtRecord(at >> 2u), at & 3u);
-            end = min(end, float((band & 1) == 0 ? ends & 0xffffu : ends >> 16u) * (1.0 / 32768.0) - 0.5);
-        }
+        if (band + 1u < bands) end = min(end, fetexFbtBandEnd(first, band));
         uint list = first;
-        if (lists != 0u) list = fetexFbtWord(fetexFbtRecord((lists + uint(band)) >> 2u), (lists + uint(band)) & 3u);
+        if (banded) list = fetexFbtBandList(first, bands, band);
         if (end > y) sum += (end - y) * fetexFbtListArea(list, vec2(low.x, y), vec2(high.x, end), corners);
         if (end >= high.y) break;
         y = end;
@@ -411,8 +368,8 @@ vec4 fetexFbtSampleAreaTexel(ivec2 base, vec2 local, vec2 halfPixel) {
 }
 
 vec4 fetexFbtSampleArea(vec2 uv, vec2 halfPixel) {
-    ivec2 size = fetexFbtSize();
-    vec2 position = clamp(uv, 0.0, 1.0) * vec2(size);
-    ivec2 base = min(ivec2(position), size - 1);
-    return fetexFbtSampleAreaTexel(base, position - vec2(base), halfPixel);
+    ivec2 base;
+    vec2 local;
+    fetexFbtLocate(uv, base, local);
+    return fetexFbtSampleAreaTexel(base, local, halfPixel);
 }

@@ -62,9 +62,10 @@ vec4 fetexFbtSampleMipTexel(ivec2 base, vec2 local, float texelsPerPixel) {
 }
 
 vec4 fetexFbtSampleMip(vec2 uv, float texelsPerPixel) {
-    vec2 position = clamp(uv, 0.0, 1.0) * vec2(fetexFbtSize());
-    ivec2 base = ivec2(position);
-    return fetexFbtSampleMipTexel(base, position - vec2(base), texelsPerPixel);
+    ivec2 base;
+    vec2 local;
+    fetexFbtLocate(uv, base, local);
+    return fetexFbtSampleMipTexel(base, local, texelsPerPixel);
 }
 
 // dx, dy in texels.
@@ -83,7 +84,8 @@ vec4 fetexFbtSampleMipAnisoTexel(ivec2 base, vec2 local, vec2 dx, vec2 dy) {
 }
 
 vec4 fetexFbtSampleMipAniso(vec2 uv, vec2 dx, vec2 dy) {
-    vec2 size = vec2(fetexFbtSize()), position = clamp(uv, 0.0, 1.0) * size;
-    ivec2 base = ivec2(position);
-    return fetexFbtSampleMipAnisoTexel(base, position - vec2(base), dx * size, dy * size);
+    vec2 size = vec2(fetexFbtSize()), local;
+    ivec2 base;
+    fetexFbtLocate(uv, base, local);
+    return fetexFbtSampleMipAnisoTexel(base, local, dx * size, dy * size);
 }

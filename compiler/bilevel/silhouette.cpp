@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kCut = 0.5; ///< of alpha, of luma
 
-double luma_over_white(const Rgba& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + (1 - c.a); }
-
 /// Point at t of an edge, by de Casteljau.
 WidthPoint point_on(const VisibleEdge& e, double t) {
     std::array<WidthPoint, 4> p = e.p;

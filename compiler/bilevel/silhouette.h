@@ -15,12 +15,16 @@ namespace fetexc {
 
 /// Width units as of VisibleEdge. Every edge of the outline inside the canvas once, with what is above on its left.
 struct Silhouette {
-    double height = 1;               ///< of the canvas
-    std::vector<VisibleEdge> edges;  ///< left = 1, right = 0; neighbours share their end points bit for bit
-    bool above_everywhere = false;   ///< where there is no edge at all
-    Rgba below, above;               ///< premultiplied; where several colours are on a side that with the longest edges
+    double height = 1;              ///< of the canvas
+    std::vector<VisibleEdge> edges; ///< left = 1, right = 0; neighbours share their end points bit for bit
+    bool above_everywhere = false;  ///< where there is no edge at all
+    double pixelated = 0;           ///< width units: side of the pixels that the outline comes from; 0: none
+    Rgba below, above; ///< premultiplied; of several on a side that with the longest edges, of a bitmap the mean
     std::uint64_t edges_varying = 0; ///< edges with a colour that isn't solid on a side: cut where the middle is
 };
+
+/// 0 black … 1 white: of premultiplied, sRGB-encoded colours (weights of ITU-R BT.709).
+inline double luma_over_white(const Rgba& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + (1 - c.a); }
 
 /// What is above.
 struct SilhouetteRule {
@@ -40,6 +44,7 @@ Result<Silhouette> silhouette_of(const Scene& scene, const SilhouetteRule& rule,
 
 /// The outline of a picture: the line at one half between pixel centres, interpolated bilinearly (marching squares,
 /// saddles by the mean of their four pixels). TwoColors: luminance if alpha never changes, else alpha.
+/// No errors; Element is taken as TwoColors.
 Result<Silhouette> silhouette_of(const RasterImage& image, const SilhouetteRule& rule);
 
 /// A piece of the outline; above is on its left.

@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "compiler/release.h"
 #include "compiler/union_find.h"
 
 namespace fetexc {
@@ -44,17 +50,76 @@ Channels dot(const std::vector<Channels>& a, const std::vector<Channels>& b, uns
 
 } // namespace
 
+/// Finds equal matrices, bit by bit, as long as that saves memory.
+class CornerFit::MatrixTable {
+  public:
+    explicit MatrixTable(std::size_t regions) : regions_(regions) {}
+
+    std::uint32_t find_or_add(const Matrix& m, std::vector<Matrix>& matrices) {
+        const auto next = static_cast<std::uint32_t>(matrices.size());
+        if (worth_it_) {
+            const auto [place, added] = known_.try_emplace(m, next);
+            if (!added) return place->second;
+            if (known_.size() > regions_ / 8) give_up(matrices);
+        }
+        matrices.push_back(m);
+        return next;
+    }
+
+  private:
+    struct Hash {
+        std::size_t operator()(const Matrix& m) const {
+            return std::hash<std::string_view>()({reinterpret_cast<const char*>(m.data()), sizeof m});
+        }
+    };
+    struct Same {
+        bool operator()(const Matrix& a, const Matrix& b) const {
+            return std::memcmp(a.data(), b.data(), sizeof a) == 0;
+        }
+    };
+    void give_up(std::vector<Matrix>& matrices) {
+        worth_it_ = false;
+        decltype(known_)().swap(known_);
+        matrices.reserve(regions_);
+    }
+
+    std::size_t regions_;
+    bool worth_it_ = true;
+    std::unordered_map<Matrix, std::uint32_t, Hash, Same> known_;
+};
+
 CornerFit::CornerFit(const ReachabilityGraph& graph, std::uint32_t rows, double bending)
-    : graph_(graph), rows_(rows), bending_(bending), unknown_(4 * graph.vertices()),
-      matrix_(graph.vertices(), Matrix{}) {
+    : graph_(graph), rows_(rows), bending_(bending), unknown_(4 * graph.vertices()) {
     unite_across_links();
-    for (std::uint32_t region = 0; region < graph.vertices(); ++region)
-        add_differences(region);
+    right_.assign(count_, Channels{});
+    matrix_of_.reserve(graph.vertices());
+    table_ = std::make_unique<MatrixTable>(graph.vertices());
     for (std::uint32_t j = 0; j <= rows_; ++j) {
         const ReachLink first{graph.row_start(j), 0};
         first_link_.push_back(static_cast<std::size_t>(
             std::lower_bound(graph.links().begin(), graph.links().end(), first) - graph.links().begin()));
     }
+}
+
+CornerFit::~CornerFit() = default;
+
+void CornerFit::begin_row(std::uint32_t row) {
+    end_row();
+    row_ = row;
+    Matrix empty{};
+    add_differences(empty);
+    row_matrix_.assign(graph_.row_start(row + 1) - graph_.row_start(row), empty);
+}
+
+void CornerFit::end_row() {
+    for (const Matrix& m : row_matrix_)
+        matrix_of_.push_back(table_->find_or_add(m, matrix_));
+}
+
+void CornerFit::finish() {
+    end_row();
+    release(row_matrix_);
+    table_.reset();
 }
 
 /// Links run to the texel on the right, in the same row, or to the one below.
@@ -75,12 +140,11 @@ void CornerFit::unite_across_links() {
         const std::uint32_t root = sets.find(k); // ≤ k
         unknown_[k] = root == k ? count++ : unknown_[root];
     }
-    right_.assign(count, Channels{});
+    count_ = count;
 }
 
 /// Inside a region: the sides' differences, and the twist.
-void CornerFit::add_differences(std::uint32_t region) {
-    Matrix& m = matrix_[region];
+void CornerFit::add_differences(Matrix& m) const {
     for (const std::array<double, 4>& side :
          {std::array<double, 4>{-1, 1, 0, 0}, {0, 0, -1, 1}, {-1, 0, 1, 0}, {0, -1, 0, 1}})
         add_square(m, side, budget::kImageStretching);
@@ -89,7 +153,7 @@ void CornerFit::add_differences(std::uint32_t region) {
 
 void CornerFit::add_sample(std::uint32_t region, double x, double y, double weight, const Channels& value) {
     const std::array<double, 4> share{(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
-    add_square(matrix_[region], share, weight);
+    add_square(row_matrix_[region - graph_.row_start(row_)], share, weight);
     for (std::uint32_t k = 0; k < 4; ++k) {
         Channels& right = right_[unknown(region, k)];
         for (std::size_t c = 0; c < 4; ++c)
@@ -113,7 +177,7 @@ template <class Visit> void CornerFit::each_second_difference(std::uint32_t row,
 
 void CornerFit::apply_row(std::uint32_t row, const std::vector<Channels>& in, std::vector<Channels>& out) const {
     for (std::uint32_t region = graph_.row_start(row); region < graph_.row_start(row + 1); ++region) {
-        const Matrix& m = matrix_[region];
+        const Matrix& m = matrix(region);
         const std::uint32_t* u = unknown_.data() + 4 * std::size_t{region};
         for (std::size_t a = 0; a < 4; ++a) {
             Channels sum{};
@@ -145,9 +209,9 @@ void CornerFit::apply(const std::vector<Channels>& in, std::vector<Channels>& ou
 
 std::vector<double> CornerFit::diagonal() const {
     std::vector<double> out(unknowns(), 0);
-    for (std::uint32_t region = 0; region < matrix_.size(); ++region) {
+    for (std::uint32_t region = 0; region < graph_.vertices(); ++region) {
         for (std::uint32_t k = 0; k < 4; ++k)
-            out[unknown(region, k)] += matrix_[region][upper(k, k)];
+            out[unknown(region, k)] += matrix(region)[upper(k, k)];
     }
     for (std::uint32_t row = 0; row < rows_; ++row) {
         each_second_difference(row, [&](std::uint32_t u, std::uint32_t v, std::uint32_t w) {
@@ -157,27 +221,35 @@ std::vector<double> CornerFit::diagonal() const {
     return out;
 }
 
-/// Residual, preconditioned residual, direction, and the direction's image.
+/// Residual, direction, and the direction's image. The preconditioned residual, r / diagonal, is never stored.
 struct CornerFit::State {
-    std::vector<Channels> r, z, p, q;
-    double largest = 0; ///< of z
+    std::vector<Channels> r, p, q;
+    std::vector<double> diagonal;
+    Channels rz{};      ///< per channel, of the residual and the preconditioned one
+    double largest = 0; ///< of the preconditioned one
 
-    void precondition(const std::vector<double>& diagonal, unsigned threads) {
-        z.resize(r.size());
-        std::vector<double> part((r.size() + kChunk - 1) / kChunk, 0);
+    /// Added up chunk by chunk: the same for any number of threads.
+    void measure(unsigned threads) {
+        std::vector<std::pair<Channels, double>> part((r.size() + kChunk - 1) / kChunk);
         parallel_for_chunks(r.size(), kChunk, threads, [&](std::size_t first, std::size_t end) {
+            auto& [sum, most] = part[first / kChunk];
             for (std::size_t k = first; k < end; ++k) {
                 for (std::size_t c = 0; c < 4; ++c) {
-                    z[k][c] = r[k][c] / diagonal[k];
-                    part[first / kChunk] = std::max(part[first / kChunk], std::fabs(z[k][c]));
+                    const double z = r[k][c] / diagonal[k];
+                    sum[c] += r[k][c] * z, most = std::max(most, std::fabs(z));
                 }
             }
         });
-        largest = *std::max_element(part.begin(), part.end());
+        rz = {}, largest = 0;
+        for (const auto& [sum, most] : part) {
+            for (std::size_t c = 0; c < 4; ++c)
+                rz[c] += sum[c];
+            largest = std::max(largest, most);
+        }
     }
 };
 
-std::uint64_t CornerFit::solve(std::vector<Channels>& values, double step, unsigned threads) const {
+std::uint64_t CornerFit::solve(std::vector<Channels>& values, double step, unsigned threads) {
     const auto each = [&](const auto& body) {
         parallel_for_chunks(values.size(), kChunk, threads, [&](std::size_t first, std::size_t end) {
             for (std::size_t k = first; k < end; ++k) {
@@ -186,17 +258,20 @@ std::uint64_t CornerFit::solve(std::vector<Channels>& values, double step, unsig
             }
         });
     };
-    const std::vector<double> diag = diagonal();
     State s;
-    apply(values, s.r, threads);
-    each([&](std::size_t k, std::size_t c) { s.r[k][c] = right_[k][c] - s.r[k][c]; });
-    s.precondition(diag, threads);
-    s.p = s.z;
-    Channels rz = dot(s.r, s.z, threads);
+    s.diagonal = diagonal();
+    s.r = std::move(right_);
+    apply(values, s.q, threads);
+    s.p.resize(values.size());
+    each([&](std::size_t k, std::size_t c) {
+        s.r[k][c] -= s.q[k][c];
+        s.p[k][c] = s.r[k][c] / s.diagonal[k];
+    });
+    s.measure(threads);
     std::uint64_t steps = 0;
     for (; steps < budget::kImageFitSteps && s.largest > step; ++steps) {
         apply(s.p, s.q, threads);
-        const Channels pq = dot(s.p, s.q, threads);
+        const Channels pq = dot(s.p, s.q, threads), rz = s.rz;
         Channels alpha{}, beta{};
         for (std::size_t c = 0; c < 4; ++c)
             alpha[c] = pq[c] > 0 ? rz[c] / pq[c] : 0;
@@ -204,13 +279,12 @@ std::uint64_t CornerFit::solve(std::vector<Channels>& values, double step, unsig
             values[k][c] += alpha[c] * s.p[k][c];
             s.r[k][c] -= alpha[c] * s.q[k][c];
         });
-        s.precondition(diag, threads);
-        const Channels next = dot(s.r, s.z, threads);
+        s.measure(threads);
         for (std::size_t c = 0; c < 4; ++c)
-            beta[c] = rz[c] > 0 ? next[c] / rz[c] : 0;
-        rz = next;
-        each([&](std::size_t k, std::size_t c) { s.p[k][c] = s.z[k][c] + beta[c] * s.p[k][c]; });
+            beta[c] = rz[c] > 0 ? s.rz[c] / rz[c] : 0;
+        each([&](std::size_t k, std::size_t c) { s.p[k][c] = s.r[k][c] / s.diagonal[k] + beta[c] * s.p[k][c]; });
     }
+    release(matrix_), release(matrix_of_), release(first_link_);
     return steps;
 }
 

@@ -11,6 +11,7 @@
 #include "compiler/fbt/mip_chain.h"
 #include "compiler/fbt/row_writer.h"
 #include "compiler/parallel.h"
+#include "compiler/release.h"
 
 namespace fetexc {
 namespace {
@@ -64,11 +65,11 @@ void add(fetex::FbtTraits& a, const fetex::FbtTraits& b) {
 class Builder {
   public:
     Builder(const Scene& scene, const CompileOptions& options, const ProgressSink& progress, const PlanarMap& map,
-            Compositor& compositor, const SampleSource* samples = nullptr)
+            Compositor& compositor, const SampleSource* samples = nullptr, const ReachabilityGraph* graph = nullptr)
         : scene_(scene), options_(options), map_(map), compositor_(compositor),
           corners_(map, scene, compositor, options.threads),
           sampler_(map, scene, compositor, corners_, options.sample_format),
-          samples_(samples != nullptr ? *samples : sampler_),
+          samples_(samples != nullptr ? *samples : sampler_), given_graph_(graph),
           separation_(samples != nullptr ? Separation::Edges : Separation::Results),
           progress_(progress, map.grid().height) {}
 
@@ -78,10 +79,11 @@ class Builder {
         std::vector<PlanarStats> stats(g.height);
         std::vector<Status> status(g.height);
         std::vector<ReachabilityRow> reach;
-        for (std::uint32_t j = 0; j < g.height; ++j)
+        for (std::uint32_t j = 0; j < g.height && given_graph_ == nullptr; ++j)
             reach.emplace_back(map_, j, separation_);
         parallel_for(g.height, options_.threads, [&](std::size_t j) {
-            status[j] = build_row(static_cast<std::uint32_t>(j), rows[j], reach[j], stats[j]);
+            status[j] =
+                build_row(static_cast<std::uint32_t>(j), rows[j], reach.empty() ? nullptr : &reach[j], stats[j]);
             progress_.row_done();
         });
         for (const Status& s : status) {
@@ -89,11 +91,15 @@ class Builder {
         }
         for (const PlanarStats& s : stats)
             add(report.planar, s);
-        ReachabilityGraph graph(map_, reach, options_.threads);
+        std::optional<ReachabilityGraph> own;
+        if (given_graph_ == nullptr) own.emplace(map_, reach, options_.threads);
+        const ReachabilityGraph& graph = own ? *own : *given_graph_;
         if (graph.conflict()) return inconsistent(graph.conflict()->i, graph.conflict()->j);
         report.planar.reach_vertices = graph.vertices(), report.planar.reach_links = graph.links().size();
         report.planar.regions_connected = graph.component_count();
-        return join(rows, std::move(report), std::move(graph), regions);
+        Result<FbtBuild> build = join(rows, std::move(report), graph, regions);
+        if (build && regions != nullptr) regions->reachability = graph;
+        return build;
     }
 
   private:
@@ -111,7 +117,7 @@ class Builder {
                 "the planar map contradicts itself; please report this file", place_of(i, j)};
     }
 
-    Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow& reach, PlanarStats& stats) {
+    Status build_row(std::uint32_t j, RowOutput& out, ReachabilityRow* reach, PlanarStats& stats) {
         TexelMapper mapper(map_, scene_, compositor_, stats, options_.skip);
         if (separation_ == Separation::Edges) mapper.tell_faces_apart();
         FeatureBuilder feature_builder(map_, mapper, options_.skip);
@@ -125,7 +131,7 @@ class Builder {
             ++stats.texels;
             ++(edges.empty() ? stats.texels_empty : edges.size() == 1 ? stats.texels_simple : stats.texels_arranged);
             if (edges.empty() && options_.skip.empty_texels) {
-                reach.add_empty(corners_.at(i, j));
+                if (reach != nullptr) reach->add_empty(corners_.at(i, j));
                 return writer.write_whole(samples_.whole(i, j));
             }
             if (!mapper.analyse(i, j, corner, texel) || !feature_builder.build(texel, features)) {
@@ -134,10 +140,12 @@ class Builder {
             }
             stats.edges_visible += features.edges_visible, stats.edges_invisible += features.edges_invisible;
             if (features.bands.empty()) {
-                reach.add_empty(corners_.at(i, j));
+                if (reach != nullptr) reach->add_empty(corners_.at(i, j));
                 return writer.write_whole(samples_.whole(i, j));
             }
-            const std::uint32_t vertex = reach.add_texel(texel, features.region_of_face, features.region_result);
+            const std::uint32_t vertex = reach != nullptr
+                                             ? reach->add_texel(texel, features.region_of_face, features.region_result)
+                                             : given_graph_->first_vertex(i, j) - given_graph_->row_start(j);
             out.stats.bands_avoided += levels(texel) - std::min(levels(texel), features.bands.size() - 1);
             writer.write_texel(texel, features, vertex);
         });
@@ -153,7 +161,7 @@ class Builder {
         return n;
     }
 
-    Result<FbtBuild> join(std::vector<RowOutput>& rows, CompileReport report, ReachabilityGraph graph,
+    Result<FbtBuild> join(std::vector<RowOutput>& rows, CompileReport report, const ReachabilityGraph& graph,
                           FbtRegions* regions) {
         FbtBuild build;
         build.report = std::move(report);
@@ -191,7 +199,6 @@ class Builder {
                 for (std::uint32_t i = 0; i <= t.width; ++i)
                     regions->corners.push_back(corners_.at(i, j));
             }
-            regions->reachability = std::move(graph);
         }
         return build;
     }
@@ -237,7 +244,7 @@ class Builder {
         }
         std::copy(row.texels.begin(), row.texels.end(), texels);
         std::copy(row.records.begin(), row.records.end(), t.records.begin() + static_cast<std::ptrdiff_t>(4 * base));
-        row.texels = {}, row.records = {}, row.record_indices = {}, row.word_indices = {};
+        release(row.texels), release(row.records), release(row.record_indices), release(row.word_indices);
     }
 
     void place_corners(fetex::FbtTexture& t) const {
@@ -261,6 +268,7 @@ class Builder {
     CornerResults corners_;
     RegionSampler sampler_;
     const SampleSource& samples_;
+    const ReachabilityGraph* given_graph_; ///< none: built here
     Separation separation_;
     RowProgress progress_;
 };
@@ -314,12 +322,12 @@ Result<GridSize> texels_for(const Extent& extent, GridSize wanted) {
     return size;
 }
 
-Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const SampleSource& samples,
-                                       CompileReport report, const CompileOptions& options,
+Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const ReachabilityGraph& graph,
+                                       const SampleSource& samples, CompileReport report, const CompileOptions& options,
                                        const ProgressSink& progress) {
     Compositor compositor(features, options.skip);
     Result<FbtBuild> build =
-        Builder(features, options, progress, map, compositor, &samples).run(std::move(report), nullptr);
+        Builder(features, options, progress, map, compositor, &samples, &graph).run(std::move(report), nullptr);
     if (build && options.mips) {
         if (progress) progress("mip chain", 0);
         FbtBuild& made = build.value();

@@ -35,9 +35,9 @@ Result<FbtBuild> build_fbt(const Scene& scene, const CompileOptions& options, co
 Result<GridSize> texels_for(const Extent& extent, GridSize size);
 
 /// The texture of a map whose edges are features whatever lies beside them (Separation::Edges), with samples from
-/// elsewhere. The report is added to.
-Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const SampleSource& samples,
-                                       CompileReport report, const CompileOptions& options,
+/// elsewhere. graph: of the map. The report is added to.
+Result<FbtBuild> build_fbt_of_features(const Scene& features, const PlanarMap& map, const ReachabilityGraph& graph,
+                                       const SampleSource& samples, CompileReport report, const CompileOptions& options,
                                        const ProgressSink& progress);
 
 } // namespace fetexc

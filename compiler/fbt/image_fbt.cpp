@@ -13,9 +13,20 @@
 #include "compiler/fbt/image_samples.h"
 #include "compiler/raster/feature_scene.h"
 #include "compiler/raster/invalidation.h"
+#include "compiler/release.h"
 
 namespace fetexc {
 namespace {
+
+/// Measured (README.md), with some room.
+constexpr std::uint64_t kBytesPerPixel = 24, kBytesPerRegion = 272;
+constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30;
+
+/// Rounded up to a tenth.
+std::string gibibytes(std::uint64_t bytes) {
+    const std::uint64_t tenths = (10 * bytes + kGibibyte - 1) / kGibibyte;
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " GiB";
+}
 
 /// Texels a pixel, in area.
 double texels_per_pixel(const FeaturedImage& picture, const Grid& grid) {
@@ -41,20 +52,26 @@ void add_samples(const FeaturedImage& picture, const ImageRegions& regions, cons
     const RasterImage& image = picture.image;
     const double area = texels_per_pixel(picture, grid), weight = std::min(1.0, area),
                  anchor = budget::kImageAnchor / std::max(1.0, area);
-    for (std::uint32_t y = 0; y < image.height; ++y) {
-        for (std::uint32_t x = 0; x < image.width; ++x) {
-            const std::size_t k = std::size_t{y} * image.width + x;
-            if (valid[k] == 0) continue;
-            const double u = pixel_centre(x, image.width, grid.width), v = pixel_centre(y, image.height, grid.height);
-            const Rgba c = image.at(x, y);
-            fit.add_sample(regions.region_of_pixel[k], u - std::floor(u), v - std::floor(v), weight,
-                           {c.r, c.g, c.b, c.a});
+    for (std::uint32_t j = 0; j < grid.height; ++j) {
+        fit.begin_row(j);
+        for (std::uint32_t y = first_pixel(j, image.height, grid.height);
+             y < first_pixel(j + 1, image.height, grid.height); ++y) {
+            for (std::uint32_t x = 0; x < image.width; ++x) {
+                const std::size_t k = std::size_t{y} * image.width + x;
+                if (valid[k] == 0) continue;
+                const double u = pixel_centre(x, image.width, grid.width),
+                             v = pixel_centre(y, image.height, grid.height);
+                const Rgba c = image.at(x, y);
+                fit.add_sample(regions.region_of_pixel[k], u - std::floor(u), v - std::floor(v), weight,
+                               {c.r, c.g, c.b, c.a});
+            }
+        }
+        for (std::uint32_t region = regions.graph.row_start(j); region < regions.graph.row_start(j + 1); ++region) {
+            if (colors.origin[region] != RegionColors::Origin::Pixels)
+                fit.add_sample(region, 0.5, 0.5, anchor, colors.color[region]);
         }
     }
-    for (std::uint32_t region = 0; region < colors.color.size(); ++region) {
-        if (colors.origin[region] != RegionColors::Origin::Pixels)
-            fit.add_sample(region, 0.5, 0.5, anchor, colors.color[region]);
-    }
+    fit.finish();
 }
 
 /// Between four valid pixels around a place in texels; none where one of them isn't.
@@ -110,6 +127,17 @@ std::vector<Channels> first_guess(const CornerFit& fit, const RegionColors& colo
     return values;
 }
 
+/// Before anything of the size is begun, and again when the regions are known: features add to the texels.
+Status check_memory(std::uint64_t pixels, std::uint64_t regions) {
+    const std::uint64_t bytes = image_memory(pixels, regions);
+    if (bytes <= kMostImageMemory) return {};
+    return Error{ErrorClass::InvalidInput, diag::kImageMemory,
+                 std::to_string(pixels) + " pixels and " + std::to_string(regions) +
+                     " texels and parts of texels take " + gibibytes(bytes) + " of memory; " +
+                     gibibytes(kMostImageMemory) + " are the most",
+                 ""};
+}
+
 std::string place_of(const FeaturedImage& picture, const Grid& grid, const TexelPoint& p) {
     return "pixel (" + std::to_string(static_cast<std::uint32_t>(p.x * picture.image.width / grid.width)) + ", " +
            std::to_string(static_cast<std::uint32_t>(p.y * picture.image.height / grid.height)) + ")";
@@ -140,40 +168,55 @@ void report_findings(const FeaturedImage& picture, const Grid& grid, const Regio
 
 } // namespace
 
+std::uint64_t image_memory(std::uint64_t pixels, std::uint64_t regions) {
+    return kBytesPerPixel * pixels + kBytesPerRegion * regions;
+}
+
 Result<FbtBuild> compile_fbt(const FeaturedImage& picture, const CompileOptions& options,
                              const ProgressSink& progress) {
     const Result<GridSize> size = texels_for(picture.features.extent, options.size);
     if (!size) return size.error();
     const RasterImage& image = picture.image;
+    const std::uint64_t pixels = std::uint64_t{image.width} * image.height;
+    if (Status fits = check_memory(pixels, std::uint64_t{size.value().width} * size.value().height); !fits)
+        return fits.error();
     CompileReport report;
     report.scene = picture.features.stats;
     if (progress) progress("planar map", 0);
     const Grid grid = make_grid(picture.features.extent, size.value().width, size.value().height);
     Result<PlanarMap> map = PlanarMap::build(picture.features, grid, options.threads, report.planar, options.skip);
     if (!map) return map.error();
-    const Result<ImageRegions> regions = find_image_regions(picture, map.value(), options);
-    if (!regions) return regions.error();
+    Result<ImageRegions> found = find_image_regions(picture, map.value(), options);
+    if (!found) return found.error();
+    ImageRegions regions = std::move(found).value();
+    if (Status fits = check_memory(pixels, regions.graph.vertices()); !fits) return fits.error();
 
     std::vector<std::uint8_t> valid = invalid_pixels(picture.features, image.width, image.height, picture.invalidate);
     for (std::uint8_t& v : valid)
         v ^= 1;
     report.image.pixels_invalid = static_cast<std::uint64_t>(std::ranges::count(valid, 0));
-    const RegionColors colors = region_colors(image, regions.value(), valid, grid);
-    if (progress) progress("samples", 0);
-    CornerFit fit(regions.value().graph, grid.height,
-                  budget::kImageBending * std::max(1.0, texels_per_pixel(picture, grid)));
-    add_samples(picture, regions.value(), colors, valid, grid, fit);
-    std::vector<Channels> values = first_guess(fit, colors);
-    guess_between_pixels(picture, regions.value().graph, fit, valid, grid, values);
+    RegionColors colors = region_colors(image, regions, valid, grid);
+    release(regions.inside);
+    release_free_pages();
     report.image.width = image.width, report.image.height = image.height;
-    report.image.fit_steps = fit.solve(
-        values, fit_step(options.sample_format) / std::max(1.0, texels_per_pixel(picture, grid)), options.threads);
     report.image.holes_filled = colors.holes;
     report.image.parts_unsampled = colors.parts_unsampled;
-    report.image.floating = regions.value().floating;
+    report.image.floating = regions.floating;
     report_findings(picture, grid, colors, report);
-    const ImageSamples samples(regions.value().graph, fit, values, grid, options.sample_format);
-    return build_fbt_of_features(picture.features, map.value(), samples, std::move(report), options, progress);
+    if (progress) progress("samples", 0);
+    const double area = std::max(1.0, texels_per_pixel(picture, grid));
+    CornerFit fit(regions.graph, grid.height, budget::kImageBending * area);
+    add_samples(picture, regions, colors, valid, grid, fit);
+    release(regions.region_of_pixel);
+    std::vector<Channels> values = first_guess(fit, colors);
+    release(colors.color), release(colors.origin);
+    guess_between_pixels(picture, regions.graph, fit, valid, grid, values);
+    release(valid);
+    release_free_pages();
+    report.image.fit_steps = fit.solve(values, fit_step(options.sample_format) / area, options.threads);
+    const ImageSamples samples(regions.graph, fit, values, grid, options.sample_format);
+    return build_fbt_of_features(picture.features, map.value(), regions.graph, samples, std::move(report), options,
+                                 progress);
 }
 
 } // namespace fetexc

@@ -17,7 +17,8 @@ Result<std::vector<std::uint32_t>> build_mips(const PlanarMap& map, const Scene&
                                               const CompileOptions& options, MipStats& stats);
 
 /// The same of a texture that no drawing tells the colours of: texels' means by exact area sampling (a region with the
-/// colour in the middle of what it has of a texel), spread evenly over the texel where a sample ends inside it.
+/// colour in the middle of what it has of a texel), spread evenly over the texel where a sample ends inside it. A level
+/// whose samples are whole blocks of a finer level's is summed from those, in double.
 std::vector<std::uint32_t> mips_of_texture(const fetex::FbtTexture& texture, unsigned threads, MipStats& stats);
 
 } // namespace fetexc

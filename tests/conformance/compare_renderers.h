@@ -43,6 +43,14 @@ inline double color_distance(const fetex::FbtColor& a, const fetex::FbtColor& b)
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
 }
 
+/// Share of the channels of two images of one size that differ by more than a step; NaN differs.
+inline double different_share(const fetex::Image& a, const fetex::Image& b, double step = kColorStep) {
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < a.rgba.size(); ++k)
+        different += !(std::abs(a.rgba[k] - b.rgba[k]) <= step);
+    return static_cast<double>(different) / static_cast<double>(a.rgba.size());
+}
+
 /// Whether the reference colour changes within a hair of the point, in the eight directions. Beyond the texture its
 /// border is repeated, so there the nearest point of the border counts.
 inline bool on_edge(const fetex::FbtTexture& texture, double x, double y) {

@@ -2,12 +2,12 @@
 /// The GLSL sampler equals the CPU reference within 1/255 in every pixel that isn't on an edge, on every back end that
 /// this machine has, in every dialect that runs there.
 #include <array>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "formats/fbt_samples.h"
 #include "formats/validate.h"
+#include "tests/conformance/backend_fixture.h"
 #include "tests/conformance/compare_renderers.h"
 #include "tests/support/fbt_maker.h"
 #include "tests/support/random_fbt.h"
@@ -16,50 +16,28 @@ namespace fetexc::test {
 namespace {
 
 using fetex::Backend;
-using fetex::Dialect;
 using fetex::FbtTexture;
 using fetex::Renderer;
-using fetex::RendererOptions;
 
 constexpr double kMagnifications[] = {1, 8, 64, 512};
 
-/// Edge pixels may go either way, but in random textures only about perimeter·hair of the area is edge.
-constexpr double kLargestEdgeShare = 1e-3;
+/// Edge pixels may go either way, but in random textures only about perimeter·hair of the area is edge. Measured on
+/// every back end of Mesa 22.3: at most 1.5e-5 here, 1.4e-5 in 104 frames of 26 textures; a pixel is 2.7e-5 at most.
+constexpr double kLargestEdgeShare = 3e-5;
+
+/// Of the channels of an area sampled frame; one is 6e-5. Measured: none here, none in 520 frames of 65 textures.
+constexpr double kLargestAreaShare = 1.25e-4;
+
+/// Largest channel of a random half. Areas are right to about 1.6e-3 of the pixel (where a cubic enters it is found to
+/// 2e-3), so the error of a mean grows with the contrast: up to 6.5e-3 measured in halves.
+constexpr double kLargestHalf = 4;
 
 /// Largest difference in wide samples of up to 4: eight bits would leave hundred times as much. A place in a texel is
 /// good to 2^-19 (20 texels in fp32, fixed point beyond), over which such a gradient changes by 4·2^-18.
-constexpr double kWideStep = 4 * 0x1p-18;
+constexpr double kWideStep = kLargestHalf * 0x1p-18;
 
-std::string describe(const RendererOptions& options) {
-    return std::string(fetex::backend_name(options.backend)) + " " + fetex::dialect_name(options.dialect) +
-           (options.texture_buffer ? " texture buffer" : "");
-}
-
-std::vector<RendererOptions> variants() {
-    std::vector<RendererOptions> all;
-    for (const Backend backend : fetex::kBackends)
-        all.push_back({.backend = backend});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Glsl430});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Essl300});
-    all.push_back({.backend = Backend::OSMesa, .texture_buffer = true});
-    all.push_back({.backend = Backend::EglSurfaceless, .dialect = Dialect::Essl300});
-    return all;
-}
-
-class Conformance : public testing::TestWithParam<RendererOptions> {
+class Conformance : public BackendTest {
   protected:
-    /// GLFW needs a display; the others come with the packages that the build asks for and must work.
-    void SetUp() override {
-        auto opened = Renderer::open(GetParam());
-        if (opened.ok()) {
-            renderer_.emplace(std::move(opened.value()));
-        } else if (GetParam().backend == Backend::Glfw && !std::getenv("DISPLAY")) {
-            GTEST_SKIP() << "no DISPLAY: " << opened.error().message;
-        } else {
-            FAIL() << describe(GetParam()) << ": " << opened.error().message;
-        }
-    }
-
     void expect_equal(const FbtTexture& texture, double magnification, std::uint32_t side, std::uint64_t seed) {
         const auto bad = renderer_->upload(texture);
         ASSERT_FALSE(bad.has_value()) << bad->message;
@@ -70,7 +48,6 @@ class Conformance : public testing::TestWithParam<RendererOptions> {
         total_.add(found);
     }
 
-    std::optional<Renderer> renderer_;
     Comparison total_;
 };
 
@@ -171,11 +148,8 @@ TEST_P(Conformance, supersamplesAsTheReferenceDoes) {
     const auto reference = fetex::render_cpu(texture, view, size);
     const auto drawn = renderer_->render(view, size);
     ASSERT_TRUE(reference.ok() && drawn.ok());
-    std::size_t different = 0;
-    for (std::size_t k = 0; k < reference.value().rgba.size(); ++k)
-        different += std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) > kColorStep;
-    // One of the 16 samples of a pixel may lie on an edge.
-    EXPECT_LE(different, reference.value().rgba.size() / 500);
+    // One of the 16 samples of a pixel may lie on an edge: measured none, and a channel is 7e-5.
+    EXPECT_LE(different_share(reference.value(), drawn.value()), 16 * kLargestEdgeShare);
 }
 
 /// Random chains cross and end anywhere: what area sampling makes of them has no meaning, but is the same. A pixel may
@@ -197,10 +171,9 @@ TEST_P(Conformance, areaSamplesAsTheReferenceDoes) {
                 const auto reference = fetex::render_cpu(texture, view, size);
                 const auto drawn = renderer_->render(view, size);
                 ASSERT_TRUE(reference.ok() && drawn.ok()) << (drawn.ok() ? "" : drawn.error().message);
-                std::size_t different = 0;
-                for (std::size_t k = 0; k < reference.value().rgba.size(); ++k) // NaN differs
-                    different += !(std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) <= kColorStep);
-                EXPECT_LE(different, reference.value().rgba.size() / 1000)
+                const bool halves = options.sample_format == fetex::FbtSampleFormat::Rgba16F;
+                const double step = halves ? kLargestHalf * kColorStep : kColorStep;
+                EXPECT_LE(different_share(reference.value(), drawn.value(), step), kLargestAreaShare)
                     << "seed " << seed << ", " << magnification << " px/texel, filter " << static_cast<int>(filter);
             }
         }
@@ -240,6 +213,24 @@ TEST_P(Conformance, drawsWhatTouchesTheFarBorder) {
     }
 }
 
+/// A monotone cubic and a level, that of a row of pixels, between which Laguerre's step goes from t = 1/4 to 1 and back.
+TEST_P(Conformance, solvesCubicsOnWhichTheStepCycles) {
+    const std::vector<std::uint32_t> points = {
+        fetex::fbt_pack_point(0, 0.464447), fetex::fbt_pack_point(0.156403, 0.595184),
+        fetex::fbt_pack_point(0.056152, 0.464447), fetex::fbt_pack_point(0.25, 0.856659)};
+    FbtTexture t;
+    t.width = t.height = 1;
+    t.texels = {fetex::kFbtKindSingle << 30 |
+                append_list(t.records,
+                            {{3, fetex::kFbtRayPosX, 1, points, 0, true, {fetex::kFbtModelSolid, 0xff0000ff}}},
+                            {fetex::kFbtModelSolid, 0xffff0000})};
+    t.traits = fetex::fbt_traits(t);
+    ASSERT_TRUE(fetex::validate_fbt(t).empty()) << fetex::validate_fbt(t)[0].message;
+    ASSERT_FALSE(renderer_->upload(t).has_value());
+    const Comparison found = compare_frame(t, *renderer_, {}, 8, 8); // a row at 9/16
+    EXPECT_TRUE(found.equal()) << found.first_wrong << found.error;
+}
+
 TEST_P(Conformance, drawsTilesWithoutSeams) {
     const FbtTexture texture = random_fbt(12, {.width = 40, .height = 33});
     ASSERT_FALSE(renderer_->upload(texture).has_value());
@@ -263,12 +254,7 @@ TEST_P(Conformance, drawsBitmapsAsTheReferenceDoes) {
     EXPECT_LE(largest, 0.02 * kColorStep);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Conformance, testing::ValuesIn(variants()), [](const auto& tested) {
-    std::string name = describe(tested.param);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Backends, Conformance, testing::ValuesIn(backend_variants()), variant_name);
 
 /// Renderers of different libraries live side by side: each call makes its own context current and releases it.
 TEST(Backends, takeTurns) {

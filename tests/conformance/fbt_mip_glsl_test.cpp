@@ -1,58 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Minified views: the GLSL sampler of the mip chain equals the CPU reference within 1/255, on every back end that this
 /// machine has, in every dialect that runs there.
-#include <cstdlib>
-#include <optional>
-
 #include <gtest/gtest.h>
 
 #include "formats/validate.h"
+#include "tests/conformance/backend_fixture.h"
 #include "tests/conformance/compare_renderers.h"
 #include "tests/support/random_fbt.h"
 
 namespace fetexc::test {
 namespace {
 
-using fetex::Backend;
-using fetex::Dialect;
 using fetex::FbtTexture;
-using fetex::Renderer;
-using fetex::RendererOptions;
 
-/// Between 1 and the scale of level 1 a pixel has area samples among its terms, up to 8; on random textures one in a
-/// thousand may differ (fbt_glsl_test.cpp).
-constexpr double kLargestEdgeShare = 5e-3;
+/// Between 1 and the scale of level 1 a pixel has area samples among its terms, up to 8, which may differ
+/// (fbt_glsl_test.cpp); one channel of a frame here is 7e-5. Measured on Mesa 22.3: none in any frame on any back end,
+/// nor in 120 more of 24 other textures.
+constexpr double kLargestAreaShare = 1.5e-4;
 
-std::string describe(const RendererOptions& options) {
-    return std::string(fetex::backend_name(options.backend)) + "_" + fetex::dialect_name(options.dialect) +
-           (options.texture_buffer ? "_texture_buffer" : "");
-}
-
-std::vector<RendererOptions> variants() {
-    std::vector<RendererOptions> all;
-    for (const Backend backend : fetex::kBackends)
-        all.push_back({.backend = backend});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Glsl430});
-    all.push_back({.backend = Backend::OSMesa, .dialect = Dialect::Essl300});
-    all.push_back({.backend = Backend::OSMesa, .texture_buffer = true});
-    all.push_back({.backend = Backend::EglSurfaceless, .dialect = Dialect::Essl300});
-    return all;
-}
-
-class MipConformance : public testing::TestWithParam<RendererOptions> {
+class MipConformance : public BackendTest {
   protected:
-    /// GLFW needs a display; the others come with the packages that the build asks for and must work.
-    void SetUp() override {
-        auto opened = Renderer::open(GetParam());
-        if (opened.ok()) {
-            renderer_.emplace(std::move(opened.value()));
-        } else if (GetParam().backend == Backend::Glfw && !std::getenv("DISPLAY")) {
-            GTEST_SKIP() << "no DISPLAY: " << opened.error().message;
-        } else {
-            FAIL() << describe(GetParam()) << ": " << opened.error().message;
-        }
-    }
-
     /// Share of channels that differ by more than 1/255.
     double different(const FbtTexture& texture, const fetex::View& view, fetex::RenderSize size) {
         size.minification = fetex::Minification::Mips;
@@ -60,13 +27,8 @@ class MipConformance : public testing::TestWithParam<RendererOptions> {
         const auto drawn = renderer_->render(view, size);
         EXPECT_TRUE(reference.ok() && drawn.ok());
         if (!reference.ok() || !drawn.ok()) return 1;
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < reference.value().rgba.size(); ++k)
-            count += std::abs(reference.value().rgba[k] - drawn.value().rgba[k]) > kColorStep;
-        return static_cast<double>(count) / static_cast<double>(reference.value().rgba.size());
+        return different_share(reference.value(), drawn.value());
     }
-
-    std::optional<Renderer> renderer_;
 };
 
 TEST_P(MipConformance, equalsTheReferenceAtEveryScale) {
@@ -82,7 +44,7 @@ TEST_P(MipConformance, equalsTheReferenceAtEveryScale) {
             // Off the texture's middle, so that borders are repeated too.
             const fetex::View view{0.5 - 0.53 * extent / width, 0.5 - 0.48 * extent / height, extent / width,
                                    extent / height};
-            EXPECT_LE(different(texture, view, {side, side, 4, filter}), texels < 3 ? kLargestEdgeShare : 0)
+            EXPECT_LE(different(texture, view, {side, side, 4, filter}), texels < 3 ? kLargestAreaShare : 0)
                 << width << "x" << height << " at " << texels << " texels a pixel";
         }
     }
@@ -95,7 +57,7 @@ TEST_P(MipConformance, equalsTheReferenceWherePixelsAreNotSquare) {
         const fetex::View view{0.05, -0.1, x * 24 / 96, y * 24 / 80};
         EXPECT_EQ(different(texture, view, {24, 24, 1}), 0) << x << " x " << y;
     }
-    EXPECT_LE(different(texture, {0, 0, 1, 1}, {400, 20, 1}), kLargestEdgeShare);
+    EXPECT_LE(different(texture, {0, 0, 1, 1}, {400, 20, 1}), kLargestAreaShare);
 }
 
 TEST_P(MipConformance, magnifiedViewsAreThoseOfTheFeatures) {
@@ -113,15 +75,11 @@ TEST_P(MipConformance, dropsTheChainOfTheTextureBefore) {
     const FbtTexture chain = random_fbt(6, {.width = 20, .height = 20, .mips = true}), none = random_fbt(7);
     for (const FbtTexture* texture : {&chain, &none, &chain}) {
         ASSERT_FALSE(renderer_->upload(*texture).has_value());
-        EXPECT_LE(different(*texture, {}, {5, 5, 4}), kLargestEdgeShare);
+        EXPECT_LE(different(*texture, {}, {5, 5, 4}), kLargestAreaShare);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, MipConformance, testing::ValuesIn(variants()), [](const auto& tested) {
-    std::string name = describe(tested.param);
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Backends, MipConformance, testing::ValuesIn(backend_variants()), variant_name);
 
 } // namespace
 } // namespace fetexc::test

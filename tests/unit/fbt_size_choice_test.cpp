@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/fbt/size_choice.h"
 
+#include <new>
+
 #include <gtest/gtest.h>
 
 #include "compiler/compile.h"
@@ -23,6 +25,38 @@ TEST(SizeChoice, takesTheLargestThatFits) {
         const auto twice = compile_fbt(scene, {grid_for(scene.extent, side + side / 8 + 1)});
         ASSERT_TRUE(twice.ok());
         EXPECT_GT(fetex::fbt_gpu_bytes(twice.value().texture), limit) << side;
+    }
+}
+
+/// What is too large for the memory ends the search, and loses nothing.
+TEST(SizeChoice, keepsTheBestWhenMemoryRunsOut) {
+    const Scene scene = disc();
+    std::uint32_t beyond = 16;
+    const auto build = [&](GridSize size) -> Result<FbtBuild> {
+        if (size.width > beyond) throw std::bad_alloc();
+        return compile_fbt(scene, {size});
+    };
+    const auto largest = largest_within(scene.extent, 16384, 1u << 20, build);
+    ASSERT_TRUE(largest.ok()) << largest.error().message;
+    EXPECT_EQ(largest.value().texture.width, 16u);
+    const auto cheapest = cheapest_lookup(scene.extent, 1, 1024, build);
+    ASSERT_TRUE(cheapest.ok()) << cheapest.error().message;
+    EXPECT_LE(cheapest.value().texture.width, 16u);
+    beyond = 0;
+    for (const auto& none :
+         {largest_within(scene.extent, 16384, 1u << 20, build), cheapest_lookup(scene.extent, 1, 1024, build)}) {
+        ASSERT_FALSE(none.ok());
+        EXPECT_EQ(none.error().code, diag::kOutOfMemory);
+    }
+}
+
+TEST(SizeChoice, staysWithinTheLargestSize) {
+    const Scene scene = disc();
+    const auto build = [&](GridSize size) { return compile_fbt(scene, {size}); };
+    for (const std::uint32_t largest : {1u, 3u, 4u, 100u}) {
+        const auto chosen = largest_within(scene.extent, largest, 1u << 30, build);
+        ASSERT_TRUE(chosen.ok()) << chosen.error().message;
+        EXPECT_EQ(chosen.value().texture.width, largest);
     }
 }
 
