@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/compile_bilevel.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "cli/bilevel_budget.h"
@@ -11,6 +8,7 @@
 #include "cli/io.h"
 #include "cli/load_scene.h"
 #include "compiler/diagnostics.h"
+#include "formats/fbt_samples.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
@@ -19,10 +17,7 @@ namespace {
 constexpr const char* kElementPrefix = "id:";
 
 std::uint32_t packed(const Rgba& c) {
-    const auto channel = [](double v) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
-    };
-    return channel(c.r) | channel(c.g) << 8 | channel(c.b) << 16 | channel(c.a) << 24;
+    return fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
 struct AboveImage {
