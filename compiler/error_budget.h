@@ -280,6 +280,12 @@ inline constexpr double kOutlineChord = 0x1p-12;
 /// a circle of half a texel, the roundest that a texture can hold, takes chords of 0.13.
 inline constexpr double kCornerTurn = 0.15;
 
+/// Of an outline that comes from pixels, whose single pieces say little: radians between its directions over so many
+/// texels, and at least so many pixels, before and behind a point. A circle of 0.7 texels turns by as much.
+inline constexpr double kCornerTurnOfPixels = 0.5;
+inline constexpr double kCornerWindow = 0.35;
+inline constexpr double kCornerPixels = 3;
+
 /// Square texels: two segments that share a point are equally far from what is nearest to the point.
 inline constexpr double kSameDistance = 1e-12;
 
@@ -312,7 +318,7 @@ inline constexpr double kFitCrowdedWeight = 0.3;
 /// gradient's length, so that the values have a scale.
 inline constexpr double kFitPositionFloor = 0.05;
 inline constexpr double kFitSteepness = 0.1;
-inline constexpr int kFitPaperSteps = 5;
+inline constexpr int kFitPaperSteps = 2;
 
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;

@@ -4,27 +4,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/bilevel/coverage.h"
+#include "compiler/bilevel/parts.h"
 #include "compiler/bilevel/seed.h"
 #include "compiler/diagnostics.h"
 #include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "formats/fbt_samples.h"
 
 namespace fetexc {
 namespace {
 
 using fetex::BilevelRule;
 
-/// Scan lines a texel: of the contour's fit and of the first bytes; of the last ones; of the figure in the report.
-struct Lines {
-    std::uint32_t fit, polish, verify;
+/// What a fit takes. Scan lines a texel: of the contour's fit and of the first bytes; of the last ones; of the figure
+/// in the report. Sweeps over pairs.
+struct Effort {
+    std::uint32_t fit_lines, polish_lines, verify_lines;
+    int pair_sweeps;
 };
-constexpr Lines kLinesOfOne{8, 16, 64}, kLinesOfSeveral{16, 32, 64};
-constexpr int kContourSteps = 12, kSweeps = 60, kPairSweeps = 6;
+constexpr Effort kEffortOfOne{8, 16, 64, 2}, kEffortOfSeveral{16, 32, 64, 12};
+constexpr int kContourSteps = 12, kSweeps = 80;
 constexpr std::uint32_t kMaxSize = 16384;
 
 struct Fitted {
     BilevelFit fit;
     std::vector<std::uint8_t> values;
+    std::uint64_t thin_cells = 0;
 };
 
 /// One texture of one rule.
@@ -32,14 +38,19 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     Fitted out;
     out.fit.rule = rule, out.fit.width = size.width, out.fit.height = size.height;
     const std::vector<OutlineSegment> outline = outline_in_texels(silhouette, size.width, size.height);
-    const Lines lines = rule == BilevelRule::Single ? kLinesOfOne : kLinesOfSeveral;
-    const ScannedOutline scanned(silhouette, outline, size.width, size.height, lines.fit);
+    const Effort& effort = rule == BilevelRule::Single ? kEffortOfOne : kEffortOfSeveral;
+    const ScannedOutline scanned(silhouette, outline, size.width, size.height, effort.fit_lines);
     const ThresholdCells cells(scanned, size.width, size.height, rule);
     out.fit.texels_fitted = cells.texels().size();
     out.fit.cells =
         static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [](const Cell& c) { return c.holds_outline; }));
     const double reach = rule == BilevelRule::Single ? budget::kSeedReach : budget::kSeedReachOfSeveral;
-    out.values = seed_values(cells, scanned, outline, reach);
+    const double pixel = silhouette.pixelated * size.width;
+    const double window = pixel > 0 ? std::max(budget::kCornerWindow, budget::kCornerPixels * pixel) : 0;
+    out.thin_cells = static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [&](const Cell& c) {
+        return std::ranges::any_of(cells.lines(c), [](const CellLine& l) { return l.crossings > 1; });
+    }));
+    out.values = seed_values(cells, scanned, outline, reach, window);
     if (rule == BilevelRule::Single) {
         std::vector<std::uint8_t> paper = out.values;
         fit_intersections_and_angles(cells, outline, paper);
@@ -49,15 +60,19 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     fit_contour(cells, out.values, kContourSteps, out.fit.trace);
     out.fit.contour_steps = out.fit.trace.size();
     out.fit.bytes_tried = fit_bytes(cells, out.values, greys, {kSweeps, 0}, out.fit.trace);
-    const ScannedOutline finer(silhouette, outline, size.width, size.height, lines.polish);
+    const ScannedOutline finer(silhouette, outline, size.width, size.height, effort.polish_lines);
     const ThresholdCells fine(finer, size.width, size.height, rule);
-    out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, kPairSweeps}, out.fit.trace);
+    out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, effort.pair_sweeps}, out.fit.trace);
     const double area = static_cast<double>(size.width) * size.height;
     for (double& wrong : out.fit.trace)
         wrong /= area;
-    const ScannedOutline finest(silhouette, outline, size.width, size.height, lines.verify);
+    const ScannedOutline finest(silhouette, outline, size.width, size.height, effort.verify_lines);
     out.fit.wrong = ThresholdCells(finest, size.width, size.height, rule).wrong_area(out.values) / area;
     return out;
+}
+
+std::uint32_t packed(const Rgba& c) {
+    return fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
 /// As many bytes in more channels.
@@ -91,8 +106,15 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     t.width = fits[0].fit.width, t.height = fits[0].fit.height;
     t.rule = fits[0].fit.rule, t.channels = fetex::bilevel_channels(t.rule);
     t.texels = std::move(fits[0].values);
+    out.stats.thin_cells = fits[0].thin_cells;
     for (Fitted& f : fits)
         out.stats.fits.push_back(std::move(f.fit));
+    t.below = packed(silhouette.below), t.above = packed(silhouette.above);
+    if (progress) progress("levels", 0.9);
+    if (options.mips) t.mips = coverage_levels(silhouette, t.width, t.height, options.threads);
+    const PartCounts parts = count_parts(silhouette, t, options.threads);
+    out.stats.parts = parts.parts, out.stats.parts_lost = parts.lost, out.stats.parts_false = parts.invented;
+    out.stats.gpu_bytes = fetex::bilevel_gpu_bytes(t);
     out.stats.edges = silhouette.edges.size(), out.stats.edges_varying = silhouette.edges_varying;
     return out;
 }

@@ -26,8 +26,10 @@ struct BilevelFit {
     fetex::BilevelRule rule = fetex::BilevelRule::Single;
     std::uint32_t width = 0, height = 0;
     std::uint64_t cells = 0, texels_fitted = 0; ///< with some of the outline; at their corners
-    bool paper_start = false;                   ///< the paper's equations were the better start
-    FitTrace trace; ///< part of the canvas that is wrong, after each step (contour, then bytes)
+    std::uint64_t thin_cells =
+        0; ///< of the cells: with a line that the outline crosses twice or more, so thinner than a texel
+    bool paper_start = false; ///< the paper's equations were the better start
+    FitTrace trace;           ///< part of the canvas that is wrong, after each step (contour, then bytes)
     std::uint64_t contour_steps = 0, bytes_tried = 0;
     double wrong = 0; ///< part of the canvas, along finer lines
 };
@@ -35,7 +37,8 @@ struct BilevelStats {
     std::vector<BilevelFit> fits; ///< the chosen one first
     std::uint64_t edges = 0, edges_varying = 0;
     std::uint64_t parts = 0, parts_lost = 0, parts_false = 0; ///< connected parts of the outline, of above and below
-    std::uint64_t thin_cells = 0; ///< cells of the outline that a line crosses more than once: thinner than a texel
+    std::uint64_t thin_cells =
+        0; ///< cells of the chosen fit where the outline crosses a line twice or more: thinner than a texel
     std::uint64_t gpu_bytes = 0;
 };
 struct BilevelBuild {

@@ -17,8 +17,9 @@ using fetex::BilevelRule;
 /// Segments in chains: which follows which. Where several begin in one point each end takes the next of them.
 class Chains {
   public:
-    explicit Chains(std::span<const OutlineSegment> outline)
-        : next(outline.size(), kNone), previous(outline.size(), kNone), turn(outline.size(), 0) {
+    Chains(std::span<const OutlineSegment> outline, double window)
+        : next(outline.size(), kNone), previous(outline.size(), kNone), turn(outline.size(), 0),
+          corner_(outline.size(), 0) {
         std::multimap<std::pair<double, double>, std::uint32_t> starts;
         for (std::uint32_t k = 0; k < outline.size(); ++k)
             starts.emplace(std::pair(outline[k].x0, outline[k].y0), k);
@@ -30,20 +31,65 @@ class Chains {
         }
         for (std::uint32_t k = 0; k < outline.size(); ++k) {
             if (previous[k] == kNone) continue;
-            const OutlineSegment &a = outline[previous[k]], &b = outline[k];
-            const double ax = a.x1 - a.x0, ay = a.y1 - a.y0, bx = b.x1 - b.x0, by = b.y1 - b.y0;
+            const auto [ax, ay] = behind(outline, k, window);
+            const auto [bx, by] = ahead(outline, k, window);
             turn[k] = std::atan2(ax * by - ay * bx, ax * bx + ay * by);
         }
+        for (std::uint32_t k = 0; k < outline.size(); ++k)
+            corner_[k] = is_corner(outline, k, window) ? 1 : 0;
     }
 
     /// At the segment's beginning.
-    [[nodiscard]] bool corner(std::uint32_t k) const {
-        return previous[k] == kNone || std::fabs(turn[k]) > budget::kCornerTurn;
-    }
+    [[nodiscard]] bool corner(std::uint32_t k) const { return corner_[k] != 0; }
 
     std::vector<std::uint32_t> next, previous;
     std::vector<double> turn; ///< from the segment before, radians; y is down, above on the left: a corner of what is
                               ///< above turns left, below 0
+
+  private:
+    struct Way {
+        double x, y;
+    };
+    static double length(const OutlineSegment& s) { return std::hypot(s.x1 - s.x0, s.y1 - s.y0); }
+
+    /// From the beginning of segment k on along the outline, over the window, at least one segment.
+    [[nodiscard]] Way ahead(std::span<const OutlineSegment> outline, std::uint32_t k, double window) const {
+        std::uint32_t at = k;
+        double sum = length(outline[at]);
+        for (; sum < window && next[at] != kNone && next[at] != k; sum += length(outline[at]))
+            at = next[at];
+        return {outline[at].x1 - outline[k].x0, outline[at].y1 - outline[k].y0};
+    }
+    /// To there from behind.
+    [[nodiscard]] Way behind(std::span<const OutlineSegment> outline, std::uint32_t k, double window) const {
+        std::uint32_t at = previous[k];
+        double sum = length(outline[at]);
+        for (; sum < window && previous[at] != kNone && previous[at] != k; sum += length(outline[at]))
+            at = previous[at];
+        return {outline[k].x0 - outline[at].x0, outline[k].y0 - outline[at].y0};
+    }
+
+    /// In a window the sharpest turn, of equal ones the first.
+    [[nodiscard]] bool is_corner(std::span<const OutlineSegment> outline, std::uint32_t k, double window) const {
+        if (previous[k] == kNone) return true;
+        if (window == 0) return std::fabs(turn[k]) > budget::kCornerTurn;
+        const double sharp = std::fabs(turn[k]);
+        if (sharp <= budget::kCornerTurnOfPixels) return false;
+        double sum = 0;
+        for (std::uint32_t at = k; sum < window;) {
+            sum += length(outline[at]), at = next[at];
+            if (at == kNone || at == k) break;
+            if (std::fabs(turn[at]) > sharp) return false;
+        }
+        sum = 0;
+        for (std::uint32_t at = previous[k]; sum < window && at != kNone && at != k; at = previous[at]) {
+            sum += length(outline[at]);
+            if (std::fabs(turn[at]) >= sharp) return false;
+        }
+        return true;
+    }
+
+    std::vector<std::uint8_t> corner_;
 };
 
 /// Runs of one chain that begins with a corner.
@@ -206,17 +252,17 @@ Nearest nearest_on(const OutlineSegment& s, std::uint32_t index, double x, doubl
 
 } // namespace
 
-std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outline, BilevelRule rule) {
+std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outline, BilevelRule rule, double window) {
     if (rule == BilevelRule::Single) return std::vector<std::uint8_t>(outline.size(), 1);
-    const Chains chains(outline);
+    const Chains chains(outline, window);
     return ChannelAssigner(chains, rule).assign();
 }
 
 std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const ScannedOutline& scanned,
-                                      std::span<const OutlineSegment> outline, double reach) {
+                                      std::span<const OutlineSegment> outline, double reach, double window) {
     const std::uint32_t channels = std::min(cells.channels(), 3U), width = cells.width(), height = cells.height();
-    const std::vector<std::uint8_t> sets = assign_channels(outline, cells.rule());
-    const Chains chains(outline);
+    const std::vector<std::uint8_t> sets = assign_channels(outline, cells.rule(), window);
+    const Chains chains(outline, window);
     const double search = budget::kSeedSearch;
     const SegmentBuckets buckets(outline, width, height, search + 0.5); // half a texel to its centre
     std::vector<std::uint8_t> values(std::size_t{width} * height * channels);

@@ -16,11 +16,14 @@ namespace fetexc {
 /// The outline falls into runs between corners (turns of more than budget::kCornerTurn). For the median each run takes
 /// two of the three channels, neighbours different pairs, so that they share one (Chlumsky 2015, section 3.3); for min
 /// and max one channel each, alternating, where the corner is one that the rule sharpens, and both where it isn't.
-std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outline, fetex::BilevelRule rule);
+///
+/// window: texels over which an outline of pixels turns (budget::kCornerTurnOfPixels); 0: at a point.
+std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outline, fetex::BilevelRule rule,
+                                          double window);
 
 /// Signed distances of texel centres, within `reach` texels, to the nearest segment of each channel, prolonged beyond
 /// the run's ends, 1/2 on it, 0 and 1 at the reach; rounded to bytes. All texels of the texture.
 std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const ScannedOutline& scanned,
-                                      std::span<const OutlineSegment> outline, double reach);
+                                      std::span<const OutlineSegment> outline, double reach, double window);
 
 } // namespace fetexc

@@ -56,22 +56,7 @@ LineValues line_values(std::span<const std::uint8_t> values, const CellTexels& t
     return out;
 }
 
-template <BilevelRule Rule>
-double wrong_area_of(const ThresholdCells& cells, std::span<const std::uint8_t> values, const Cell& c) {
-    const CellTexels corners = cells.corners(c);
-    float sum = 0;
-    for (const CellLine& line : cells.lines(c)) {
-        const LineValues v = line_values<Rule>(values, corners, c.along_rows, line.across);
-        const TextureCrossings t = texture_crossings<Rule>(v, c.low, c.high);
-        sum += disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, cells.crossings(line),
-                            c.low, c.high);
-    }
-    return static_cast<double>(sum) * cells.line_width();
-}
-
-} // namespace
-
-template <BilevelRule Rule> TextureCrossings texture_crossings(const LineValues& v, float low, float high) {
+template <BilevelRule Rule> inline TextureCrossings crossings_of(const LineValues& v, float low, float high) {
     std::array<bool, 3> above{};
     std::array<float, 3> at{};
     std::array<std::uint8_t, 3> order{};
@@ -98,16 +83,35 @@ template <BilevelRule Rule> TextureCrossings texture_crossings(const LineValues&
     return out;
 }
 
+template <BilevelRule Rule>
+double wrong_area_of(const ThresholdCells& cells, std::span<const std::uint8_t> values, const Cell& c) {
+    const CellTexels corners = cells.corners(c);
+    float sum = 0;
+    for (const CellLine& line : cells.lines(c)) {
+        const LineValues v = line_values<Rule>(values, corners, c.along_rows, line.across);
+        const TextureCrossings t = crossings_of<Rule>(v, c.low, c.high);
+        const std::span<const float> outline = cells.crossings(line);
+        if (t.count == 1 && outline.size() == 1 && t.above_first == line.above_first) // most
+            sum += std::fabs(std::clamp(t.at[0], c.low, c.high) - outline[0]);
+        else
+            sum +=
+                disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, outline, c.low, c.high);
+    }
+    return static_cast<double>(sum) * cells.line_width();
+}
+
+} // namespace
+
 TextureCrossings texture_crossings(BilevelRule rule, const LineValues& v, float low, float high) {
     switch (rule) {
     case BilevelRule::Min:
-        return texture_crossings<BilevelRule::Min>(v, low, high);
+        return crossings_of<BilevelRule::Min>(v, low, high);
     case BilevelRule::Max:
-        return texture_crossings<BilevelRule::Max>(v, low, high);
+        return crossings_of<BilevelRule::Max>(v, low, high);
     case BilevelRule::Median:
-        return texture_crossings<BilevelRule::Median>(v, low, high);
+        return crossings_of<BilevelRule::Median>(v, low, high);
     default:
-        return texture_crossings<BilevelRule::Single>(v, low, high);
+        return crossings_of<BilevelRule::Single>(v, low, high);
     }
 }
 

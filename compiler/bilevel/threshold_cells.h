@@ -92,8 +92,6 @@ struct TextureCrossings {
     std::array<float, 3> at{};
     std::array<std::uint8_t, 3> channel{}; ///< which of them does
 };
-template <fetex::BilevelRule Rule> TextureCrossings texture_crossings(const LineValues& v, float low, float high);
-/// The same for a rule known when run.
 TextureCrossings texture_crossings(fetex::BilevelRule rule, const LineValues& v, float low, float high);
 
 } // namespace fetexc
