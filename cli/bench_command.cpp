@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint32_t kLeastRounds = 11, kMostRounds = 10001;
 
 struct BenchOptions {
-    std::vector<std::string> inputs, representations = {"fbt"};
+    std::vector<std::string> inputs, representations = {"fbt", "bilevel"};
     std::string csv, html, plot;
     std::string backend = "osmesa";
     std::uint32_t rounds = kLeastRounds;
@@ -107,6 +107,9 @@ Status write_all(const BenchOptions& options, const std::vector<BenchFile>& file
 int run_bench(BenchOptions options) {
     options.sweep.timing = !options.no_timing, options.sweep.equal_bitmap = !options.no_equal_bitmap;
     if (const Status status = check_outputs(options); !status) return report_error(status.error());
+    if (std::ranges::count(options.representations, "fbt") == 0)
+        return report_error({ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt: its sizes are swept", {}});
+    options.sweep.bilevel = std::ranges::count(options.representations, "bilevel") > 0;
     std::optional<SamplerTimer> timer; // before anything starts a thread
     if (options.sweep.timing) {
         timer.emplace(options.backend, options.rounds);
@@ -139,9 +142,10 @@ Command add_bench_command(CLI::App& parent) {
     add_sizes(*app, "--size", options->sweep.sizes, "Texels on the longer side (default 16,32,64,128,256)");
     add_sizes(*app, "--output-size", options->sweep.outputs,
               "Pixels on the longer side where errors are measured; plots show the last (default 512)");
-    app->add_option("--repr", options->representations, "Representations: fbt (default)")
+    app->add_option("--repr", options->representations,
+                    "Representations: fbt, whose sizes are swept, and bilevel (default: both)")
         ->delimiter(',')
-        ->check(CLI::IsMember({"fbt"}))
+        ->check(CLI::IsMember({"fbt", "bilevel"}))
         ->type_name("NAME,...");
     app->add_option("--csv", options->csv, "Write every figure; - for stdout, the default when nothing else is written")
         ->type_name("FILE");

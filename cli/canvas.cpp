@@ -41,6 +41,20 @@ std::vector<fetex::Backend> backends_for(const std::string& name) {
     return {};
 }
 
+template <class Texture> Result<Bitmap> equal_bitmap(const Texture& texture, std::uint64_t bytes) {
+    const double pixels = static_cast<double>(bytes / 4), aspect = static_cast<double>(texture.width) / texture.height;
+    const auto side = [](double length) {
+        return static_cast<std::uint32_t>(std::clamp(std::floor(length), 1.0, 16384.0));
+    };
+    Bitmap bitmap;
+    bitmap.width = side(std::sqrt(pixels * aspect));
+    bitmap.height = side(pixels / bitmap.width);
+    auto image = fetex::render_cpu(texture, {}, {bitmap.width, bitmap.height, kBoxSamples});
+    if (!image) return to_error(image.error());
+    bitmap.rgba = fetex::to_rgba8(image.value());
+    return bitmap;
+}
+
 } // namespace
 
 const std::vector<std::string>& canvas_names() {
@@ -71,6 +85,17 @@ Result<fetex::Image> Canvas::draw(const fetex::FbtTexture& texture, const fetex:
     return to_result(gl_->render(view, size));
 }
 
+Result<fetex::Image> Canvas::draw(const fetex::BilevelTexture& texture, const fetex::View& view,
+                                  const fetex::RenderSize& size) {
+    if (!gl_) return to_result(fetex::render_cpu(texture, view, size));
+    const auto error_of_filter = gl_->linear_filter_error();
+    if (!error_of_filter) return to_error(error_of_filter.error());
+    const bool filters_well = error_of_filter.value() <= fetex::kGoodFilterError;
+    const auto fetch = filters_well ? fetex::BilevelFetch::Filtered : fetex::BilevelFetch::Interpolated;
+    if (const auto error = gl_->upload_bilevel(texture, fetch)) return to_error(*error);
+    return to_result(gl_->render_bilevel(view, size));
+}
+
 Result<fetex::Image> Canvas::draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size) {
     if (!gl_) return to_result(fetex::render_bitmap_cpu(bitmap.rgba, bitmap.width, bitmap.height, view, size));
     if (const auto error = gl_->upload_bitmap(bitmap.rgba, bitmap.width, bitmap.height)) return to_error(*error);
@@ -78,17 +103,11 @@ Result<fetex::Image> Canvas::draw(const Bitmap& bitmap, const fetex::View& view,
 }
 
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint64_t bytes) {
-    const double pixels = static_cast<double>(bytes / 4), aspect = static_cast<double>(texture.width) / texture.height;
-    const auto side = [](double length) {
-        return static_cast<std::uint32_t>(std::clamp(std::floor(length), 1.0, 16384.0));
-    };
-    Bitmap bitmap;
-    bitmap.width = side(std::sqrt(pixels * aspect));
-    bitmap.height = side(pixels / bitmap.width);
-    auto image = fetex::render_cpu(texture, {}, {bitmap.width, bitmap.height, kBoxSamples});
-    if (!image) return to_error(image.error());
-    bitmap.rgba = fetex::to_rgba8(image.value());
-    return bitmap;
+    return equal_bitmap(texture, bytes);
+}
+
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes) {
+    return equal_bitmap(texture, bytes);
 }
 
 } // namespace fetexc::cli

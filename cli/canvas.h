@@ -30,6 +30,9 @@ class Canvas {
     [[nodiscard]] const std::string& description() const { return description_; }
 
     Result<fetex::Image> draw(const fetex::FbtTexture& texture, const fetex::View& view, const fetex::RenderSize& size);
+    /// By the hardware's filter where a probe finds that good enough.
+    Result<fetex::Image> draw(const fetex::BilevelTexture& texture, const fetex::View& view,
+                              const fetex::RenderSize& size);
     Result<fetex::Image> draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size);
 
   private:
@@ -39,5 +42,6 @@ class Canvas {
 
 /// Largest RGBA8 bitmap of the texture's aspect with at most `bytes` bytes, box-filtered from the texture itself.
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint64_t bytes);
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes);
 
 } // namespace fetexc::cli

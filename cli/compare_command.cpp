@@ -8,6 +8,7 @@
 #include "cli/compare_input.h"
 #include "cli/compare_outcome.h"
 #include "cli/difference_picture.h"
+#include "cli/fetex_input.h"
 #include "cli/image_file.h"
 #include "cli/io.h"
 #include "cli/load_scene.h"
@@ -25,6 +26,7 @@ constexpr double kMostThreshold = 1e9; ///< no figure is larger
 
 struct CompareOptions {
     std::string truth, other, diff;
+    std::string representation;         ///< of OTHER; empty: what it holds
     std::vector<std::uint32_t> sizes;   ///< pixels on the longer side
     std::vector<double> magnifications; ///< pixels a texel of the other
     double reach = measure::MeasureOptions{}.reach;
@@ -161,8 +163,12 @@ Result<CompareOutcome> compare(const CompareOptions& options) {
     if (!other_file) return other_file.error();
     if (const Status status = check_kinds(truth_file.value(), other_file.value(), options); !status)
         return status.error();
-    const auto other = picture_of(other_file.value(), options.nearest ? measure::BitmapPicture::Filter::Nearest
-                                                                      : measure::BitmapPicture::Filter::Bilinear);
+    if (!options.representation.empty() && other_file.value().kind != FileKind::Asset)
+        return usage("--repr is for a .fetex", options.other);
+    const auto other =
+        picture_of(other_file.value(),
+                   options.nearest ? measure::BitmapPicture::Filter::Nearest : measure::BitmapPicture::Filter::Bilinear,
+                   options.representation);
     if (!other) return other.error();
     const measure::Picture& picture = *other.value().picture;
     const auto truth = load_truth(truth_file.value(), options, picture.texels());
@@ -229,6 +235,10 @@ Command add_compare_command(CLI::App& parent) {
     app->add_option("other", options->other, "What is judged: a .fetex or a PNG; - for stdin")
         ->required()
         ->type_name("OTHER");
+    app->add_option("--repr", options->representation,
+                    "What of OTHER: fbt or bilevel; default: what it holds, fbt first")
+        ->check(CLI::IsMember(representation_names()))
+        ->type_name("NAME");
     app->add_option("--size", options->sizes, "Output sizes: pixels on the longer side (default 1024)")
         ->delimiter(',')
         ->check(CLI::Range(1u, kMaxSide))

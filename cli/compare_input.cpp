@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/compile_bilevel.h"
 #include "cli/fetex_input.h"
 #include "cli/image_file.h"
 #include "cli/io.h"
@@ -28,16 +29,23 @@ FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes
     return path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
 }
 
-Result<ComparedPicture> asset_picture(const ComparedFile& file) {
+Result<ComparedPicture> asset_picture(const ComparedFile& file, const std::string& representation) {
     auto input = fetex_of_bytes(file.bytes, file.path);
     if (!input) return input.error();
-    if (!input.value().file.fbt)
-        return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no FBT", file.path};
+    if (const Status s = choose_representation(input.value().file, representation, file.path); !s) return s.error();
     ComparedPicture out;
-    out.texture = std::make_unique<const fetex::FbtTexture>(std::move(*input.value().file.fbt));
-    out.picture = std::make_unique<const measure::FbtPicture>(*out.texture);
-    out.description = fmt::format("FBT of {} x {} texels, {} bytes on the GPU", out.texture->width, out.texture->height,
-                                  out.picture->gpu_bytes());
+    out.asset = std::make_unique<const fetex::FetexFile>(std::move(input.value().file));
+    std::string name = "FBT of";
+    if (out.asset->fbt) {
+        out.picture = std::make_unique<const measure::FbtPicture>(*out.asset->fbt);
+    } else {
+        const fetex::BilevelTexture& texture = *out.asset->bilevel;
+        out.picture = std::make_unique<const measure::BilevelPicture>(texture);
+        name = fmt::format("bi-level texture ({}) of", rule_name(texture.rule));
+    }
+    const GridSize size = out.picture->texels();
+    out.description =
+        fmt::format("{} {} x {} texels, {} bytes on the GPU", name, size.width, size.height, out.picture->gpu_bytes());
     return out;
 }
 
@@ -62,8 +70,9 @@ Result<ComparedFile> read_compared(const std::string& path) {
     return ComparedFile{path, kind, std::move(bytes).value()};
 }
 
-Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter) {
-    return file.kind == FileKind::Asset ? asset_picture(file) : bitmap_picture(file, filter);
+Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter,
+                                   const std::string& representation) {
+    return file.kind == FileKind::Asset ? asset_picture(file, representation) : bitmap_picture(file, filter);
 }
 
 } // namespace fetexc::cli

@@ -9,6 +9,7 @@
 
 #include "compiler/measure/pictures.h"
 #include "compiler/result.h"
+#include "formats/fetex_file.h"
 
 namespace fetexc::cli {
 
@@ -26,12 +27,13 @@ Result<ComparedFile> read_compared(const std::string& path);
 
 /// An asset or a bitmap, ready to be asked for colours.
 struct ComparedPicture {
-    std::unique_ptr<const fetex::FbtTexture> texture; ///< what an asset's picture looks into
+    std::unique_ptr<const fetex::FetexFile> asset; ///< what its picture looks into
     std::unique_ptr<const measure::Picture> picture;
     std::string description; ///< "FBT of 64 x 48 texels, 12345 bytes on the GPU"
 };
 
-/// Not for an SVG. Errors E6001, E6002, E8032.
-Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter);
+/// Not for an SVG. representation: of an asset, as choose_representation takes it. Errors E6001, E6002, E8032.
+Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter,
+                                   const std::string& representation = {});
 
 } // namespace fetexc::cli

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "cli/compile_bilevel.h"
 #include "cli/compile_image.h"
 #include "cli/depfile.h"
 #include "cli/io.h"
@@ -17,6 +19,7 @@
 #include "cli/report.h"
 #include "cli/version.h"
 #include "compiler/diagnostics.h"
+#include "formats/fbt_mip.h"
 #include "formats/fetex_file.h"
 
 namespace fetexc::cli {
@@ -27,11 +30,13 @@ constexpr std::uint32_t kDefaultTexels = 128; ///< longer side, when --size isn'
 struct CompileCommandOptions {
     std::vector<std::string> inputs;
     std::string output, depfile, report;
-    std::string representation = "fbt";
+    std::vector<std::string> representations = {"fbt"};
     SizeValue size{0, 0, kDefaultTexels};
     bool size_given = false;
     SceneOptions scene;
     ImageOptions image;
+    BilevelCommandOptions bilevel;
+    std::vector<CLI::Option*> for_fbt, for_bilevel; ///< that mean nothing without it
     std::uint64_t max_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> no_skip;
@@ -66,40 +71,70 @@ fetex::FbtSampleFormat sample_format(const CompileCommandOptions& options) {
     return options.samples == "float" ? fetex::FbtSampleFormat::Rgba16F : fetex::FbtSampleFormat::Rgba8;
 }
 
-/// What the file says about its own making. Nothing that differs between two runs or two folders.
-fetex::Metadata metadata_for(const LoadedScene& loaded, const CompileCommandOptions& options,
-                             const fetex::FbtTexture& fbt) {
-    std::string made_with = fmt::format("repr=fbt size={}x{}", fbt.width, fbt.height);
-    if (options.mips) made_with += " mips";
-    if (options.samples != "8") made_with += " samples=" + options.samples;
-    if (options.scene.raster_size != 0) made_with += fmt::format(" raster-size={}", options.scene.raster_size);
-    return {{"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
+bool makes(const CompileCommandOptions& options, const char* representation) {
+    return std::ranges::count(options.representations, representation) > 0;
 }
 
+/// What an input became.
 struct Compiled {
-    fetex::Metadata metadata;
-    FbtBuild build;
+    std::string source_hash, features_hash; ///< empty: none
+    std::optional<FbtBuild> fbt;
+    std::optional<CompiledBilevel> bilevel;
+    CompileReport report; ///< the FBT's if there is one
 };
+
+/// What the file says about its own making. Nothing that differs between two runs or two folders.
+std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
+    std::string text = fmt::format("repr={}", fmt::join(options.representations, ","));
+    if (compiled.fbt) text += fmt::format(" size={}x{}", compiled.fbt->texture.width, compiled.fbt->texture.height);
+    if (compiled.fbt && !options.image.image.empty()) text += fmt::format(" invalidate={}", options.image.invalidate);
+    if (options.mips) text += " mips";
+    if (options.samples != "8") text += " samples=" + options.samples;
+    if (options.image.trace)
+        text += fmt::format(" trace-contrast={} trace-speck={}", options.image.tracing.contrast,
+                            options.image.tracing.speck);
+    if (options.scene.raster_size != 0) text += fmt::format(" raster-size={}", options.scene.raster_size);
+    if (!compiled.bilevel) return text;
+    const fetex::BilevelTexture& t = compiled.bilevel->build.texture;
+    const char* size = compiled.fbt ? "bilevel-size" : "size";
+    return text + fmt::format(" {}={}x{} {}", size, t.width, t.height, compiled.bilevel->options);
+}
+
+fetex::Metadata metadata_for(const Compiled& compiled, const CompileCommandOptions& options) {
+    fetex::Metadata metadata{{"generator", "fetexc " + version_number()},
+                             {"options", options_text(compiled, options)},
+                             {"source.xxh128", compiled.source_hash}};
+    if (!compiled.features_hash.empty()) metadata.emplace("features.xxh128", compiled.features_hash);
+    if (compiled.bilevel && !compiled.bilevel->image_hash.empty())
+        metadata.emplace("above-image.xxh128", compiled.bilevel->image_hash);
+    return metadata;
+}
 
 CompileOptions compile_options(const CompileCommandOptions& options, const Extent& extent) {
     return {grid_of(options.size, extent), options.threads, skip_rules_without(options.no_skip), options.mips,
             sample_format(options)};
 }
 
-fetex::Metadata metadata_for(const LoadedImage& loaded, const CompileCommandOptions& options,
-                             const fetex::FbtTexture& fbt) {
-    const ImageOptions& o = options.image;
-    std::string made_with = fmt::format("repr=fbt size={}x{} invalidate={}", fbt.width, fbt.height, o.invalidate);
-    if (options.mips) made_with += " mips";
-    if (options.samples != "8") made_with += " samples=" + options.samples;
-    if (o.trace) made_with += fmt::format(" trace-contrast={} trace-speck={}", o.tracing.contrast, o.tracing.speck);
-    fetex::Metadata metadata{
-        {"generator", "fetexc " + version_number()}, {"options", made_with}, {"source.xxh128", loaded.source_hash}};
-    if (!loaded.features_hash.empty()) metadata.emplace("features.xxh128", loaded.features_hash);
-    return metadata;
+/// Of a drawing or a bitmap. silhouette: what found it, or why there is none.
+Status add_bilevel(const Result<Silhouette>& silhouette, const CompileCommandOptions& options,
+                   const ProgressSink& progress, std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
+    if (!silhouette) return silhouette.error();
+    BilevelRequest request{options.bilevel, {}, options.max_bytes, options.mips, options.threads};
+    if (options.size_given) request.size = options.size;
+    auto built = compile_silhouette(silhouette.value(), request, progress, diagnostics);
+    if (!built) return built.error();
+    compiled.bilevel = std::move(built).value();
+    return {};
 }
 
-/// An image has as many texels as pixels unless told otherwise.
+Status add_fbt(Result<FbtBuild> build, Compiled& compiled) {
+    if (!build) return build.error();
+    compiled.fbt = std::move(build).value();
+    compiled.report = compiled.fbt->report;
+    return {};
+}
+
+/// An FBT of an image has as many texels as pixels unless told otherwise.
 Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOptions& options,
                                         std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
@@ -108,13 +143,22 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
     auto loaded = load_image(image, options.scene, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const FeaturedImage& picture = loaded.value().picture;
-    CompileOptions how = compile_options(options, picture.features.extent);
-    if (!options.size_given) how.size = {picture.image.width, picture.image.height};
-    auto build = size_chosen(options) ? compile_fbt_at_chosen_size(picture, how, options.max_bytes, progress.sink())
-                                      : compile_fbt(picture, how, progress.sink());
-    if (!build) return build.error();
-    fetex::Metadata metadata = metadata_for(loaded.value(), options, build.value().texture);
-    return Compiled{std::move(metadata), std::move(build).value()};
+    Compiled compiled;
+    compiled.source_hash = loaded.value().source_hash, compiled.features_hash = loaded.value().features_hash;
+    compiled.report.image.width = picture.image.width, compiled.report.image.height = picture.image.height;
+    if (makes(options, "fbt")) {
+        CompileOptions how = compile_options(options, picture.features.extent);
+        if (!options.size_given) how.size = {picture.image.width, picture.image.height};
+        auto build = size_chosen(options) ? compile_fbt_at_chosen_size(picture, how, options.max_bytes, progress.sink())
+                                          : compile_fbt(picture, how, progress.sink());
+        if (const Status s = add_fbt(std::move(build), compiled); !s) return s.error();
+    }
+    if (makes(options, "bilevel")) {
+        const auto silhouette = silhouette_of(picture.image, *silhouette_rule(options.bilevel.silhouette));
+        if (const Status s = add_bilevel(silhouette, options, progress.sink(), diagnostics, compiled); !s)
+            return s.error();
+    }
+    return compiled;
 }
 
 Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOptions& options,
@@ -128,12 +172,20 @@ Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOp
     auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
-    const CompileOptions how = compile_options(options, scene.extent);
-    auto build = chosen ? compile_fbt_at_chosen_size(scene, how, options.max_bytes, progress.sink())
-                        : compile_fbt(scene, how, progress.sink());
-    if (!build) return build.error();
-    fetex::Metadata metadata = metadata_for(loaded.value(), options, build.value().texture);
-    return Compiled{std::move(metadata), std::move(build).value()};
+    Compiled compiled;
+    compiled.source_hash = loaded.value().source_hash, compiled.report.scene = scene.stats;
+    if (makes(options, "fbt")) {
+        const CompileOptions how = compile_options(options, scene.extent);
+        auto build = chosen ? compile_fbt_at_chosen_size(scene, how, options.max_bytes, progress.sink())
+                            : compile_fbt(scene, how, progress.sink());
+        if (const Status s = add_fbt(std::move(build), compiled); !s) return s.error();
+    }
+    if (makes(options, "bilevel")) {
+        const auto silhouette = silhouette_of(scene, *silhouette_rule(options.bilevel.silhouette), options.threads);
+        if (const Status s = add_bilevel(silhouette, options, progress.sink(), diagnostics, compiled); !s)
+            return s.error();
+    }
+    return compiled;
 }
 
 /// Front end and compiler; what they have to say is appended to diagnostics, also on error.
@@ -142,21 +194,35 @@ Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& o
     auto compiled = options.image.image.empty() ? load_and_compile_drawing(job, options, diagnostics)
                                                 : load_and_compile_image(job, options, diagnostics);
     if (!compiled) return compiled;
-    const std::vector<Diagnostic>& found = compiled.value().build.report.diagnostics;
+    const std::vector<Diagnostic>& found = compiled.value().report.diagnostics;
     diagnostics.insert(diagnostics.end(), found.begin(), found.end());
     return compiled;
 }
 
-CompileOutcome outcome_of(const Job& job, const fetex::FbtTexture& fbt, CompileReport report) {
+BilevelOutcome outcome_of(const BilevelBuild& build) {
+    const fetex::BilevelTexture& t = build.texture;
+    BilevelOutcome outcome;
+    outcome.width = t.width, outcome.height = t.height, outcome.rule = t.rule;
+    outcome.mip_levels = t.mips.empty() ? 0 : fetex::fbt_mip_levels(t.width, t.height);
+    outcome.gpu_bytes = fetex::bilevel_gpu_bytes(t);
+    outcome.image_width = t.image_width, outcome.image_height = t.image_height;
+    outcome.stats = build.stats;
+    return outcome;
+}
+
+CompileOutcome outcome_of(const Job& job, const Compiled& compiled) {
     CompileOutcome outcome;
     outcome.input = job.input;
     outcome.output = job.output;
-    outcome.width = fbt.width;
-    outcome.height = fbt.height;
-    outcome.gpu_bytes = fetex::fbt_gpu_bytes(fbt);
-    outcome.samples = fbt.sample_format;
-    outcome.traits = fbt.traits;
-    outcome.report = std::move(report);
+    outcome.has_fbt = compiled.fbt.has_value();
+    if (compiled.fbt) {
+        const fetex::FbtTexture& fbt = compiled.fbt->texture;
+        outcome.width = fbt.width, outcome.height = fbt.height;
+        outcome.gpu_bytes = fetex::fbt_gpu_bytes(fbt);
+        outcome.samples = fbt.sample_format, outcome.traits = fbt.traits;
+    }
+    if (compiled.bilevel) outcome.bilevel = outcome_of(compiled.bilevel->build);
+    outcome.report = compiled.report;
     return outcome;
 }
 
@@ -167,13 +233,14 @@ Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& 
     if (!compiled) return compiled.error();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
 
+    CompileOutcome outcome = outcome_of(job, compiled.value());
     fetex::FetexFile file;
-    file.fbt = std::move(compiled.value().build.texture);
-    file.metadata = std::move(compiled.value().metadata);
+    file.metadata = metadata_for(compiled.value(), options);
+    if (compiled.value().fbt) file.fbt = std::move(compiled.value().fbt->texture);
+    if (compiled.value().bilevel) file.bilevel = std::move(compiled.value().bilevel->build.texture);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
-    CompileOutcome outcome = outcome_of(job, *file.fbt, std::move(compiled.value().build.report));
     outcome.report.diagnostics = diagnostics;
     outcome.file_bytes = bytes.size();
     outcome.milliseconds = elapsed.count();
@@ -185,7 +252,9 @@ Status write_depfile(const CompileCommandOptions& options, const std::vector<Com
     for (const CompileOutcome& outcome : outcomes) {
         DepfileRule rule{outcome.output, {}};
         if (outcome.input != "-") rule.inputs.push_back(outcome.input);
-        if (!options.image.features.empty()) rule.inputs.push_back(options.image.features);
+        for (const std::string& beside : {options.image.features, options.bilevel.above_image}) {
+            if (!beside.empty()) rule.inputs.push_back(beside);
+        }
         rule.inputs.insert(rule.inputs.end(), options.scene.fonts.begin(), options.scene.fonts.end());
         rules.push_back(std::move(rule));
     }
@@ -206,15 +275,38 @@ void print_report(const CompileCommandOptions& options, const std::vector<Compil
     }
 }
 
+Error usage(std::string message) { return {ErrorClass::Usage, diag::kBadUsage, std::move(message), {}}; }
+
+/// Options of a representation that isn't made.
+Status check_representations(const CompileCommandOptions& options) {
+    const auto unused = [](const std::vector<CLI::Option*>& of_one, const char* name) -> Status {
+        for (const CLI::Option* o : of_one) {
+            if (o->count() > 0) return usage(fmt::format("{} is for --repr {}", o->get_name(), name));
+        }
+        return {};
+    };
+    for (const std::string& name : options.representations) {
+        if (std::ranges::count(options.representations, name) > 1)
+            return usage(fmt::format("--repr names {} twice", name));
+    }
+    if (!makes(options, "fbt")) return unused(options.for_fbt, "fbt");
+    return makes(options, "bilevel") ? Status() : unused(options.for_bilevel, "bilevel");
+}
+
 /// What the options' own conditions don't say.
 Status check_inputs(const CompileCommandOptions& options) {
-    const auto usage = [](const char* message) { return Error{ErrorClass::Usage, diag::kBadUsage, message, {}}; };
+    if (const Status status = check_representations(options); !status) return status.error();
     const ImageOptions& image = options.image;
+    const bool fbt = makes(options, "fbt");
+    if (makes(options, "bilevel") && options.size.automatic)
+        return usage("--size auto chooses sizes for --repr fbt alone");
+    if (options.bilevel.above_image == "-") return usage("--above-image takes a file, not stdin");
     if (image.image.empty())
         return options.inputs.empty() ? usage("inputs is required: SVG files, or --image") : Status();
     if (!options.inputs.empty()) return usage("--image goes alone: no other inputs");
     if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
-    if (image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
+    if (options.bilevel.silhouette.starts_with("id:")) return usage("--silhouette id:NAME is for drawings");
+    if (fbt && image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
     return {};
 }
 
@@ -223,9 +315,11 @@ Result<Plan> prepare(const CompileCommandOptions& options) {
     const bool image = !options.image.image.empty();
     auto plan = plan_outputs(image ? std::vector{options.image.image} : options.inputs, options.output);
     if (!plan) return plan;
-    if (image && same_file(options.image.features, plan.value().jobs[0].output))
-        return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
-                     plan.value().jobs[0].output};
+    for (const Job& job : plan.value().jobs) {
+        if (same_file(options.image.features, job.output) || same_file(options.bilevel.above_image, job.output))
+            return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
+                         job.output};
+    }
     if (!options.depfile.empty()) {
         if (const Status status = check_depfile(options.depfile, plan.value().jobs); !status) return status.error();
     }
@@ -269,23 +363,27 @@ Command add_compile_command(CLI::App& parent) {
     app->add_option("-o,--output", options->output,
                     "File for one input, folder for several, - for stdout; default: beside each input")
         ->type_name("PATH");
-    app->add_option("--repr", options->representation, "Representation: fbt (default)")
-        ->check(CLI::IsMember({"fbt"}))
-        ->type_name("NAME");
+    app->add_option("--repr", options->representations,
+                    "Representations: fbt (feature-based texture, default), bilevel (bi-level texture), or both")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"fbt", "bilevel"}))
+        ->type_name("NAME,...");
     CLI::Option* size = add_size_or_auto_option(
         *app, options->size, "Texels: both sides, or the longer one (default 128); auto: as few as cheap lookups need");
     app->add_option("--max-bytes", options->max_bytes,
-                    "The largest size, to 1/64, with at most so many bytes on the GPU")
+                    "The largest size, to 1/64, with at most so many bytes on the GPU; of each representation")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
         ->excludes(size)
         ->type_name("N");
     app->add_flag("--mips,!--no-mips", options->mips,
                   "A mip chain too, for views of more than a texel a pixel; without (default) they need supersampling");
-    app->add_option("--samples", options->samples,
-                    "Gradients' colours in 8 (default) or 16 bits a channel, or as 16-bit floats, which of an --image "
-                    "keep what is brighter than white")
-        ->check(CLI::IsMember({"8", "16", "float"}))
-        ->type_name("FORMAT");
+    CLI::Option* samples =
+        app->add_option(
+               "--samples", options->samples,
+               "Gradients' colours in 8 (default) or 16 bits a channel, or as 16-bit floats, which of an --image "
+               "keep what is brighter than white")
+            ->check(CLI::IsMember({"8", "16", "float"}))
+            ->type_name("FORMAT");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
@@ -295,6 +393,9 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
     add_image_options(*app, options->image);
+    options->for_bilevel = add_bilevel_options(*app, options->bilevel);
+    options->for_fbt = {samples, app->get_option("--features"), app->get_option("--trace"),
+                        app->get_option("--invalidate")};
     add_scene_options(*app, options->scene);
     app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
         ->take_all()

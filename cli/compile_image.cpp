@@ -17,8 +17,6 @@
 namespace fetexc::cli {
 namespace {
 
-constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 30; ///< of the file
-
 struct Received {
     RasterImage image;
     ImageNotes notes;

@@ -13,6 +13,8 @@
 
 namespace fetexc::cli {
 
+inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 30; ///< of an image's file
+
 struct ImageOptions {
     std::string image;    ///< empty: no image
     std::string features; ///< an SVG; empty: none

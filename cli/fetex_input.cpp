@@ -28,4 +28,19 @@ Result<FetexInput> load_fetex(const std::string& path) {
     return fetex_of_bytes(bytes.value(), path);
 }
 
+const std::vector<std::string>& representation_names() {
+    static const std::vector<std::string> names = {"fbt", "bilevel"};
+    return names;
+}
+
+Status choose_representation(fetex::FetexFile& file, const std::string& name, const std::string& path) {
+    const bool fbt = name == "fbt" || (name.empty() && file.fbt);
+    if (fbt ? !file.fbt : !file.bilevel) {
+        const char* what = name.empty() ? "holds no texture" : fbt ? "holds no FBT" : "holds no bi-level texture";
+        return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, what, path};
+    }
+    fbt ? file.bilevel.reset() : file.fbt.reset();
+    return {};
+}
+
 } // namespace fetexc::cli

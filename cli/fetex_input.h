@@ -25,6 +25,13 @@ Result<FetexInput> load_fetex(const std::string& path);
 /// The same for bytes already read; path: for messages.
 Result<FetexInput> fetex_of_bytes(std::span<const std::uint8_t> bytes, const std::string& path);
 
+/// Names that --repr takes where one is chosen: "fbt", "bilevel".
+const std::vector<std::string>& representation_names();
+
+/// What the file holds of that name; of the empty name whatever it holds, the FBT first. The other is dropped. Error
+/// E6002 where it isn't there. path: for messages.
+Status choose_representation(fetex::FetexFile& file, const std::string& name, const std::string& path);
+
 /// "F0101 at byte 12: reason"
 std::string describe(const fetex::Finding& finding);
 

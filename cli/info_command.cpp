@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/compile_bilevel.h"
 #include "cli/fetex_input.h"
 #include "cli/messages.h"
 #include "cli/options.h"
@@ -164,10 +165,50 @@ void print_fbt(const fetex::FbtTexture& fbt) {
                gradients_text(fbt), t.translucent ? "translucent" : "opaque", t.max_entries, t.max_bands);
 }
 
+std::uint32_t mip_levels(const fetex::BilevelTexture& t) {
+    return t.mips.empty() ? 0 : fetex::fbt_mip_levels(t.width, t.height);
+}
+
+/// "#rrggbbaa", premultiplied.
+std::string color_text(std::uint32_t rgba) {
+    return fmt::format("#{:02x}{:02x}{:02x}{:02x}", rgba & 0xff, rgba >> 8 & 0xff, rgba >> 16 & 0xff, rgba >> 24);
+}
+
+Json bilevel_json(const fetex::BilevelTexture& t) {
+    Json json = {{"width", t.width},
+                 {"height", t.height},
+                 {"channels", t.channels},
+                 {"rule", rule_name(t.rule)},
+                 {"gpuBytes", fetex::bilevel_gpu_bytes(t)},
+                 {"texelBytes", t.texels.size()},
+                 {"mipBytes", t.mips.size()},
+                 {"mipLevels", mip_levels(t)},
+                 {"imageBytes", 4 * t.image.size()},
+                 {"below", color_text(t.below)}};
+    if (t.image.empty())
+        json["above"] = color_text(t.above);
+    else
+        json["image"] = {{"width", t.image_width}, {"height", t.image_height}};
+    return json;
+}
+
+void print_bilevel(const fetex::BilevelTexture& t) {
+    fmt::print("bi-level      {} x {} texels, {} channel{} ({})\n", t.width, t.height, t.channels,
+               t.channels == 1 ? "" : "s", rule_name(t.rule));
+    fmt::print("  on the GPU  {} bytes: {} in texels{}{}\n", fetex::bilevel_gpu_bytes(t), t.texels.size(),
+               t.mips.empty() ? "" : fmt::format(", {} in {} mip levels", t.mips.size(), mip_levels(t)),
+               t.image.empty()
+                   ? ""
+                   : fmt::format(", {} in an image of {} x {}", 4 * t.image.size(), t.image_width, t.image_height));
+    fmt::print("  colours     {} below, {} above\n", color_text(t.below),
+               t.image.empty() ? color_text(t.above) : "the image");
+}
+
 void print_text(const std::string& path, const FetexInput& input, bool stats) {
     fmt::print("file          {} ({} bytes)\n", printable(path), input.bytes);
     if (input.file.fbt) print_fbt(*input.file.fbt);
     if (input.file.fbt && stats) print_stats(*input.file.fbt);
+    if (input.file.bilevel) print_bilevel(*input.file.bilevel);
     for (const auto& [key, value] : input.file.metadata)
         fmt::print("{:<13} {}\n", printable(key), printable(value));
 }
@@ -179,6 +220,7 @@ void print_json(const std::string& path, const FetexInput& input, bool stats) {
         json["metadata"][key] = value;
     if (input.file.fbt) json["fbt"] = fbt_json(*input.file.fbt);
     if (input.file.fbt && stats) json["fbt"]["stats"] = stats_json(*input.file.fbt);
+    if (input.file.bilevel) json["bilevel"] = bilevel_json(*input.file.bilevel);
     fmt::print("{}\n", json.dump(2));
 }
 

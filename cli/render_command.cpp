@@ -20,7 +20,7 @@ constexpr std::uint32_t kDefaultPixels = 1024, kDefaultSupersample = 4;
 struct RenderOptions {
     std::string input, output, beside;
     std::string backend = "cpu";
-    std::string representation = "fbt";
+    std::string representation; ///< empty: what the file holds
     ViewValue view;
     SizeValue size{0, 0, kDefaultPixels};
     std::uint32_t supersample = 0; ///< 0: by filter
@@ -28,37 +28,48 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-fetex::Filter filter_of(const std::string& name) {
+std::uint64_t gpu_bytes(const fetex::FbtTexture& texture) { return fetex::fbt_gpu_bytes(texture); }
+std::uint64_t gpu_bytes(const fetex::BilevelTexture& texture) { return fetex::bilevel_gpu_bytes(texture); }
+
+const char* texels_name(const fetex::FbtTexture&) { return "of features"; }
+const char* texels_name(const fetex::BilevelTexture&) { return "cut at one half"; }
+
+/// A bi-level texture is cut softly unless told otherwise.
+fetex::Filter filter_of(const std::string& name, const fetex::FbtTexture&) {
     return name == "area" ? fetex::Filter::Area : name == "exact" ? fetex::Filter::ExactArea : fetex::Filter::Point;
 }
+fetex::Filter filter_of(const std::string& name, const fetex::BilevelTexture&) {
+    return name == "point" ? fetex::Filter::Point : fetex::Filter::Area;
+}
 
-fetex::RenderSize pixels_for(const RenderOptions& options, const fetex::FbtTexture& texture) {
+template <class Texture> fetex::RenderSize pixels_for(const RenderOptions& options, const Texture& texture) {
     const double aspect = options.view.w * texture.width / (options.view.h * texture.height);
     const PixelSize size = resolve_size(options.size, aspect);
-    const fetex::Filter filter = filter_of(options.filter);
-    const std::uint32_t usual = filter == fetex::Filter::Point ? kDefaultSupersample : 1;
+    const bool means = options.filter == "area" || options.filter == "exact";
+    const std::uint32_t supersample = options.supersample != 0 ? options.supersample : means ? 1 : kDefaultSupersample;
     const auto minification = options.filter == "point" ? fetex::Minification::Supersample : fetex::Minification::Mips;
-    return {size.width, size.height, options.supersample != 0 ? options.supersample : usual, filter, minification};
+    return {size.width, size.height, supersample, filter_of(options.filter, texture), minification};
 }
 
 /// Draws the ordinary texture that the same bytes buy, to the right of the picture.
-Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, const fetex::FbtTexture& texture,
+template <class Texture>
+Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, const Texture& texture,
                                   const fetex::View& view, const fetex::RenderSize& size, const fetex::Image& left) {
-    const std::uint64_t bytes = fetex::fbt_gpu_bytes(texture);
+    const std::uint64_t bytes = gpu_bytes(texture);
     const auto bitmap = bitmap_of_equal_bytes(texture, bytes);
     if (!bitmap) return bitmap.error();
     const auto right = canvas.draw(bitmap.value(), view, size);
     if (!right) return right;
     if (!options.quiet) {
-        print_message(fmt::format(
-            "note: left, {} x {} texels of features in {} bytes; right, an ordinary {} x {} texture in {} bytes",
-            texture.width, texture.height, bytes, bitmap.value().width, bitmap.value().height,
-            bitmap.value().rgba.size()));
+        print_message(
+            fmt::format("note: left, {} x {} texels {} in {} bytes; right, an ordinary {} x {} texture in {} bytes",
+                        texture.width, texture.height, texels_name(texture), bytes, bitmap.value().width,
+                        bitmap.value().height, bitmap.value().rgba.size()));
     }
     return side_by_side(left, right.value(), std::max(2u, size.width / 128));
 }
 
-Result<fetex::Image> draw(const RenderOptions& options, const fetex::FbtTexture& texture) {
+template <class Texture> Result<fetex::Image> draw(const RenderOptions& options, const Texture& texture) {
     auto canvas = Canvas::open(options.backend);
     if (!canvas) return canvas.error();
     const fetex::View view{options.view.x, options.view.y, options.view.w, options.view.h};
@@ -72,11 +83,12 @@ int run_render(const RenderOptions& options) {
     if (same_file(options.input, options.output))
         return report_error(
             {ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite the input", options.output});
-    const auto input = load_fetex(options.input);
+    auto input = load_fetex(options.input);
     if (!input) return report_error(input.error());
-    if (!input.value().file.fbt)
-        return report_error({ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no FBT", options.input});
-    const auto image = draw(options, *input.value().file.fbt);
+    fetex::FetexFile& file = input.value().file;
+    if (const Status s = choose_representation(file, options.representation, options.input); !s)
+        return report_error(s.error());
+    const auto image = file.fbt ? draw(options, *file.fbt) : draw(options, *file.bilevel);
     if (!image) return report_error(image.error(), options.input);
     const auto png = encode_png(image.value());
     if (!png) return report_error(png.error(), options.output);
@@ -91,8 +103,9 @@ Command add_render_command(CLI::App& parent) {
     CLI::App* app = parent.add_subcommand("render", "Draw a .fetex texture, or a part of it, into a PNG");
     app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
     app->add_option("-o,--output", options->output, "The PNG to write, or - for stdout")->required()->type_name("FILE");
-    app->add_option("--repr", options->representation, "Representation to draw: fbt (default)")
-        ->check(CLI::IsMember({"fbt"}))
+    app->add_option("--repr", options->representation,
+                    "Representation to draw: fbt or bilevel; default: what the file holds, fbt first")
+        ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     add_view_option(*app, options->view);
     add_size_option(*app, options->size, "Pixels: both sides, or the longer one (default 1024)");
@@ -105,8 +118,9 @@ Command add_render_command(CLI::App& parent) {
         ->check(CLI::Range(1u, fetex::kMaxSupersample))
         ->type_name("N");
     app->add_option("--filter", options->filter,
-                    "auto (default): colours at points, and the mip chain, if there is one, for more than a texel a "
-                    "pixel; point: no chain; area, exact: means over pixels, from one texel or from all, and the chain")
+                    "auto (default): colours at points (bilevel: soft edges), and the mip chain, if there is one, for "
+                    "more than a texel a pixel; point: no chain (bilevel: hard edges); area, exact: means over pixels, "
+                    "from one texel or from all (bilevel: soft edges, both), and the chain")
         ->check(CLI::IsMember({"auto", "point", "area", "exact"}))
         ->type_name("NAME");
     app->add_option("--beside", options->beside,

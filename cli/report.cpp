@@ -2,8 +2,10 @@
 #include "cli/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/compile_bilevel.h"
 #include "cli/messages.h"
 #include "cli/version.h"
 #include "formats/fetex_file.h"
@@ -66,11 +68,55 @@ std::string mips_text(const MipStats& m) {
                        m.own_maps);
 }
 
-std::string image_text(const ImageStats& i) {
+std::string image_text(const ImageStats& i, bool features) {
+    if (!features) return fmt::format("  image      {} x {} pixels\n", i.width, i.height);
     return fmt::format(
         "  image      {} x {} pixels, {} too near to a feature; {} holes filled, {} parts without a sample; {} "
         "floating parts of features ignored; {} steps of the fit\n",
         i.width, i.height, i.pixels_invalid, i.holes_filled, i.parts_unsampled, i.floating, i.fit_steps);
+}
+
+/// Wrong ppm after each step.
+std::vector<double> trace_ppm(const BilevelFit& fit) {
+    std::vector<double> ppm;
+    for (const double wrong : fit.trace)
+        ppm.push_back(1e6 * wrong);
+    return ppm;
+}
+
+/// After steps 1, 2, 4 … and the last.
+std::string trace_text(const BilevelFit& fit) {
+    const std::vector<double> ppm = trace_ppm(fit);
+    std::string text;
+    for (std::size_t step = 1; step < ppm.size(); step *= 2)
+        text += fmt::format("{:.0f} ", ppm[step - 1]);
+    return ppm.empty() ? "nothing to fit" : text + fmt::format("{:.0f}", ppm.back());
+}
+
+std::string fit_text(const BilevelFit& f) {
+    const double texels = static_cast<double>(f.width) * f.height;
+    std::string text = fmt::format("  {:<10} {} x {} texels of {} bytes: {:.0f} ppm wrong; {:.1f}% of texels fitted\n",
+                                   rule_name(f.rule), f.width, f.height, fetex::bilevel_channels(f.rule), 1e6 * f.wrong,
+                                   100 * static_cast<double>(f.texels_fitted) / texels);
+    text +=
+        fmt::format("             {} steps of the contour{}, then {} values tried; ppm after steps 1, 2, 4 … {}: {}\n",
+                    f.contour_steps, f.paper_start ? " from the paper's equations" : "", f.bytes_tried, f.trace.size(),
+                    trace_text(f));
+    return text;
+}
+
+std::string bilevel_text(const BilevelOutcome& b) {
+    const BilevelStats& s = b.stats;
+    std::string text = fmt::format(
+        "  bi-level   {} x {} texels, {} ({} bytes a texel); {} bytes on the GPU{}{}\n", b.width, b.height,
+        rule_name(b.rule), fetex::bilevel_channels(b.rule), b.gpu_bytes,
+        b.mip_levels > 0 ? fmt::format(", {} mip levels", b.mip_levels) : "",
+        b.image_width > 0 ? fmt::format(", an image of {} x {} pixels", b.image_width, b.image_height) : "");
+    text += fmt::format("  silhouette {} edges in {} parts; {} parts lost, {} false, {} cells crossed twice\n", s.edges,
+                        s.parts, s.parts_lost, s.parts_false, s.thin_cells);
+    for (const BilevelFit& fit : s.fits)
+        text += fit_text(fit);
+    return text;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -157,6 +203,41 @@ Json image_json(const ImageStats& i) {
             {"fitSteps", i.fit_steps}};
 }
 
+Json fit_json(const BilevelFit& f) {
+    return {{"rule", rule_name(f.rule)},
+            {"width", f.width},
+            {"height", f.height},
+            {"wrongPpm", 1e6 * f.wrong},
+            {"cells", f.cells},
+            {"texelsFitted", f.texels_fitted},
+            {"paperStart", f.paper_start},
+            {"contourSteps", f.contour_steps},
+            {"bytesTried", f.bytes_tried},
+            {"tracePpm", trace_ppm(f)}};
+}
+
+Json bilevel_json(const BilevelOutcome& b) {
+    const BilevelStats& s = b.stats;
+    Json fits = Json::array();
+    for (const BilevelFit& fit : s.fits)
+        fits.push_back(fit_json(fit));
+    return {{"width", b.width},
+            {"height", b.height},
+            {"channels", fetex::bilevel_channels(b.rule)},
+            {"rule", rule_name(b.rule)},
+            {"mipLevels", b.mip_levels},
+            {"imageWidth", b.image_width},
+            {"imageHeight", b.image_height},
+            {"gpuBytes", b.gpu_bytes},
+            {"edges", s.edges},
+            {"edgesVarying", s.edges_varying},
+            {"parts", s.parts},
+            {"partsLost", s.parts_lost},
+            {"partsFalse", s.parts_false},
+            {"thinCells", s.thin_cells},
+            {"fits", fits}};
+}
+
 Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics) {
@@ -167,24 +248,45 @@ Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     return list;
 }
 
+std::string representations(const CompileOutcome& o) {
+    if (!o.bilevel) return "fbt";
+    return o.has_fbt ? "fbt,bilevel" : "bilevel";
+}
+
 Json outcome_json(const CompileOutcome& o) {
+    const bool fbt = o.has_fbt;
     Json json = {{"input", fetex::to_valid_utf8(o.input)},
                  {"output", fetex::to_valid_utf8(o.output)},
-                 {"representation", "fbt"},
-                 {"width", o.width},
-                 {"height", o.height},
+                 {"representation", representations(o)},
+                 {"width", fbt ? o.width : o.bilevel->width},
+                 {"height", fbt ? o.height : o.bilevel->height},
                  {"fileBytes", o.file_bytes},
-                 {"gpuBytes", o.gpu_bytes},
-                 {"samples", sample_format_name(o.samples)},
+                 {"gpuBytes", fbt ? o.gpu_bytes : o.bilevel->gpu_bytes},
                  {"milliseconds", o.milliseconds},
-                 {"scene", scene_json(o.report.scene)},
-                 {"planar", planar_json(o.report.planar)},
-                 {"fbt", fbt_json(o.report.fbt)},
-                 {"mips", mips_json(o.report.mips)},
-                 {"shaderPartsLeftOut", shader_parts_left_out(o.traits)},
-                 {"diagnostics", diagnostics_json(o.report.diagnostics)}};
+                 {"scene", scene_json(o.report.scene)}};
+    if (fbt) {
+        json["samples"] = sample_format_name(o.samples);
+        json["planar"] = planar_json(o.report.planar);
+        json["fbt"] = fbt_json(o.report.fbt);
+        json["mips"] = mips_json(o.report.mips);
+        json["shaderPartsLeftOut"] = shader_parts_left_out(o.traits);
+    }
+    if (o.bilevel) json["bilevel"] = bilevel_json(*o.bilevel);
+    json["diagnostics"] = diagnostics_json(o.report.diagnostics);
     if (o.report.image.width != 0) json["image"] = image_json(o.report.image);
     return json;
+}
+
+std::string fbt_report_text(const CompileOutcome& o) {
+    const double texels = static_cast<double>(o.width) * o.height;
+    std::string text = fmt::format("  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel)\n", o.width,
+                                   o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels);
+    text += fmt::format("  samples    {}\n", o.samples == fetex::FbtSampleFormat::Rgba16F
+                                                 ? "16-bit floats"
+                                                 : fmt::format("{} bits a channel", sample_format_name(o.samples)));
+    text += planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);
+    text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
+    return text;
 }
 
 } // namespace
@@ -222,18 +324,12 @@ std::vector<std::string> shader_parts_left_out(const fetex::FbtTraits& traits) {
 }
 
 std::string report_text(const CompileOutcome& o) {
-    const double texels = static_cast<double>(o.width) * o.height;
     std::string text = fmt::format("{} -> {}\n", printable(o.input), printable(o.output));
-    text += fmt::format(
-        "  texture    {} x {} texels; {} bytes on the GPU ({:.1f} a texel), {} in the file; {:.0f} ms\n", o.width,
-        o.height, o.gpu_bytes, static_cast<double>(o.gpu_bytes) / texels, o.file_bytes, o.milliseconds);
-    text += fmt::format("  samples    {}\n", o.samples == fetex::FbtSampleFormat::Rgba16F
-                                                 ? "16-bit floats"
-                                                 : fmt::format("{} bits a channel", sample_format_name(o.samples)));
-    if (o.report.image.width != 0) text += image_text(o.report.image);
-    text +=
-        scene_text(o.report.scene) + planar_text(o.report.planar) + fbt_text(o.report.fbt) + mips_text(o.report.mips);
-    text += fmt::format("  shader     left out: {}\n", joined(shader_parts_left_out(o.traits)));
+    text += fmt::format("  file       {} bytes; {:.0f} ms\n", o.file_bytes, o.milliseconds);
+    if (o.report.image.width != 0) text += image_text(o.report.image, o.has_fbt);
+    if (o.report.scene.layers_in > 0) text += scene_text(o.report.scene);
+    if (o.has_fbt) text += fbt_report_text(o);
+    if (o.bilevel) text += bilevel_text(*o.bilevel);
     return text;
 }
 

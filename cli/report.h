@@ -3,21 +3,36 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compiler/bilevel/bilevel_builder.h"
 #include "compiler/compile.h"
 
 namespace fetexc::cli {
 
+/// The bi-level texture among what was made.
+struct BilevelOutcome {
+    std::uint32_t width = 0, height = 0; ///< texels
+    fetex::BilevelRule rule = fetex::BilevelRule::Single;
+    std::uint32_t mip_levels = 0;                    ///< 0: none
+    std::uint64_t gpu_bytes = 0;                     ///< level 0, mip levels, image
+    std::uint32_t image_width = 0, image_height = 0; ///< pixels; 0: one colour above
+    BilevelStats stats;
+};
+
 /// One input compiled.
 struct CompileOutcome {
     std::string input, output;
-    std::uint32_t width = 0, height = 0; ///< texels
-    std::uint64_t file_bytes = 0, gpu_bytes = 0;
+    bool has_fbt = true;
+    std::uint32_t width = 0, height = 0; ///< texels, of the FBT
+    std::uint64_t file_bytes = 0;
+    std::uint64_t gpu_bytes = 0; ///< of the FBT
     fetex::FbtSampleFormat samples = fetex::FbtSampleFormat::Rgba8;
     fetex::FbtTraits traits;
-    CompileReport report;
+    std::optional<BilevelOutcome> bilevel = {};
+    CompileReport report;    ///< without an FBT: what the front end did, the image's size, the diagnostics
     double milliseconds = 0; ///< wall clock, front end and compiler; the only figure here that differs between runs
 };
 

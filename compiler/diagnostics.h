@@ -78,12 +78,15 @@ inline constexpr int kPlanarInconsistent = 4001;   ///< an internal invariant of
 inline constexpr int kTooManyIntersections = 4002; ///< limit on arrangement size exceeded
 inline constexpr int kSliversCollapsed = 4101;     ///< parts of the picture, everywhere thinner than the output grid, were left out (count)
 
-// Representations (owner: compiler/fbt)
+// Representations (owner: compiler/fbt, compiler/bilevel)
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
 inline constexpr int kFbtTooLarge = 5002;    ///< more records than the format can address
 inline constexpr int kFbtBudget = 5003;      ///< no size fits in --max-bytes
 inline constexpr int kNotTwoColors = 5011;   ///< a bi-level texture of a drawing that hasn't two colours needs --silhouette
 inline constexpr int kNoSuchElement = 5012;  ///< --silhouette names an element that isn't drawn
+inline constexpr int kBilevelPartsLost = 5101;  ///< parts of a silhouette that its texture doesn't show: thinner than its texels (count)
+inline constexpr int kBilevelPartsFalse = 5102; ///< parts that a bi-level texture shows and the silhouette hasn't (count)
+inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette along which colours vary: cut by those of their middles (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened
@@ -104,7 +107,7 @@ inline constexpr int kInternal = 8052;            ///< an error of the program i
 
 // Container, seen from the command line; the findings themselves are F numbers (formats/findings.h)
 inline constexpr int kInvalidFetex = 6001;          ///< the .fetex file breaks a rule of SPEC.md
-inline constexpr int kNoSuchRepresentation = 6002;  ///< the file is fine but holds no FBT
+inline constexpr int kNoSuchRepresentation = 6002;  ///< the file is fine but doesn't hold the representation asked for, or none
 
 // clang-format on
 

@@ -125,6 +125,9 @@ std::vector<Column> timed_columns() {
                    [](const S& s) { return fmt::format("{:.4g}", s.lower_quartile); }),
         of_sampler("timed: sampler, upper quartile",
                    [](const S& s) { return fmt::format("{:.4g}", s.upper_quartile); }),
+        of_times(
+            "timed: area sampler (plain bilinear lookups)",
+            [](const T& t) { return t.area_sampler ? fmt::format("{:.4g}", t.area_sampler->median) : std::string(); }),
         of_times("timed: note", [](const T& t) { return csv_field(fetex::to_valid_utf8(t.why_no_sampler)); }),
     };
 }

@@ -69,7 +69,11 @@ const char* explanation(std::size_t method) {
         "one channel instead of four: how much of each cell is covered, cut at one half. Only for drawings of two "
         "plain colours",
         "one channel: the distance to the nearest edge, cut at the edge. Sharp edges, round corners. Only for drawings "
-        "of two plain colours"};
+        "of two plain colours",
+        "what fetexc makes of drawings of two plain colours: one channel whose values are chosen so that, smoothed and "
+        "cut at one half, they are the drawing",
+        "the same with one, two or three channels, whichever shows least wrong: where two edges meet each can have a "
+        "channel of its own"};
     return kTexts[method];
 }
 
@@ -140,6 +144,13 @@ std::string equal_cell(const BenchPoint& p) {
                        b.size.width, b.size.height, bytes_label(static_cast<double>(b.bytes)));
 }
 
+std::string lookup_cell(const BenchPoint& p) {
+    if (!p.times || !p.times->sampler) return "";
+    std::string text = fmt::format("{:.2f}", p.times->sampler->median);
+    if (p.times->area_sampler) text += fmt::format(" ({:.2f})", p.times->area_sampler->median);
+    return text;
+}
+
 std::string table_row(const BenchFile& file, const BenchPoint& p, bool first) {
     std::string row = fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} × {}</td>", first ? " class=\"first\"" : "",
                                   first ? name_of(file) : "", escaped(p.method), p.texels.width, p.texels.height);
@@ -156,7 +167,7 @@ std::string table_row(const BenchFile& file, const BenchPoint& p, bool first) {
     cell(fmt::format("{:.2f}", e.away.max * 255));
     cell(fmt::format("{} + {}", e.islands.lost, e.islands.invented));
     cell(p.times ? fmt::format("{:.3g}", p.times->compile_ratio) : "");
-    cell(p.times && p.times->sampler ? fmt::format("{:.2f}", p.times->sampler->median) : "");
+    cell(lookup_cell(p));
     cell(equal_cell(p));
     return row + "</tr>\n";
 }
@@ -167,7 +178,8 @@ std::string table_of(const std::vector<BenchFile>& files) {
         "class=\"wide\"><table>\n<thead><tr><th>drawing</th><th>method</th><th>texels</th><th>memory</th><th>wrong "
         "area, millionths</th><th>edges off on average, 1/1000 of the width</th><th>edges off at most, 1/1000 of the "
         "width</th><th>PSNR, dB</th><th>colour off at most, 1/255, away from edges</th><th>islands lost + false</th>"
-        "<th>time to make, sorts</th><th>time of a lookup, plain lookups</th><th>ordinary bitmap as good in wrong area"
+        "<th>time to make, sorts</th><th>time of a lookup (of the mean over a pixel), plain lookups</th><th>ordinary "
+        "bitmap as good in wrong area"
         "</th></tr></thead>\n<tbody>\n";
     for (const BenchFile& file : files) {
         for (const BenchPoint& p : file.points)

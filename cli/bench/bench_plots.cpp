@@ -131,9 +131,12 @@ void widen(std::optional<std::array<double, 2>>& range, double v) {
 
 const std::array<std::string, kPlotStyles>& bench_methods() {
     static const std::array<std::string, kPlotStyles> names = {
-        kFbtMethod, measure::alternative_name(measure::Alternative::Bitmap),
+        kFbtMethod,
+        measure::alternative_name(measure::Alternative::Bitmap),
         measure::alternative_name(measure::Alternative::BoxThreshold),
-        measure::alternative_name(measure::Alternative::DistanceField)};
+        measure::alternative_name(measure::Alternative::DistanceField),
+        kBilevelOneMethod,
+        kBilevelMethod};
     return names;
 }
 

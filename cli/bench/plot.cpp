@@ -22,10 +22,14 @@ struct Style {
     const char* dashes;
     double width;
 };
-constexpr std::array<Style, kPlotStyles> kStyles = {
-    {{"#0072b2", "", 2.6}, {"#d55e00", "8 3", 1.8}, {"#009e73", "2 3", 1.8}, {"#9b4d8f", "9 3 2 3", 1.8}}};
+constexpr std::array<Style, kPlotStyles> kStyles = {{{"#0072b2", "", 2.6},
+                                                     {"#d55e00", "8 3", 1.8},
+                                                     {"#009e73", "2 3", 1.8},
+                                                     {"#9b4d8f", "9 3 2 3", 1.8},
+                                                     {"#8a6500", "5 2 1 2", 1.8},
+                                                     {"#222222", "", 1.8}}};
 
-/// Round, square, triangle, diamond.
+/// Round, square, triangle, diamond, triangle on its point, cross.
 std::string mark(std::size_t style, double x, double y, bool hollow, const std::string& description) {
     const char* color = kStyles[style].color;
     const std::string paint =
@@ -42,8 +46,13 @@ std::string mark(std::size_t style, double x, double y, bool hollow, const std::
                            closed("rect"));
     case 2:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}l4.6,8h-9.2z" {}{})", x, y - 5, paint, closed("path"));
-    default:
+    case 3:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}l5,5l-5,5l-5,-5z" {}{})", x, y - 5, paint, closed("path"));
+    case 4:
+        return fmt::format(R"(<path d="M{:.1f},{:.1f}l4.6,-8h-9.2z" {}{})", x, y + 5, paint, closed("path"));
+    default:
+        return fmt::format(R"(<path d="M{:.1f},{:.1f}h3v3h3v3h-3v3h-3v-3h-3v-3h3z" {}{})", x - 1.5, y - 4.5, paint,
+                           closed("path"));
     }
 }
 

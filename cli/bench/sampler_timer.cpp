@@ -48,6 +48,28 @@ std::optional<fetex::SamplerCost> SamplerTimer::cost(const fetex::FbtTexture& te
     return timed(gl_->upload(texture), fetex::Sampler::Fbt);
 }
 
+std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::FbtTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(gl_->upload(texture), fetex::Sampler::FbtArea);
+}
+
+fetex::RuntimeStatus SamplerTimer::upload(const fetex::BilevelTexture& texture) {
+    const auto error = gl_->linear_filter_error();
+    if (!error) return error.error();
+    return gl_->upload_bilevel(texture, error.value() <= fetex::kGoodFilterError ? fetex::BilevelFetch::Filtered
+                                                                                 : fetex::BilevelFetch::Interpolated);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::cost(const fetex::BilevelTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(upload(texture), fetex::Sampler::Bilevel);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::BilevelTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(upload(texture), fetex::Sampler::BilevelArea);
+}
+
 std::optional<fetex::SamplerCost> SamplerTimer::cost(const measure::FieldPicture& picture) {
     if (!gl_) return std::nullopt;
     const Rgba &below = picture.below(), &above = picture.above();

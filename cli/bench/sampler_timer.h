@@ -24,11 +24,16 @@ class SamplerTimer {
     /// Against a bilinear lookup in this bitmap, from here on.
     void compare_with(const measure::BitmapPicture& bitmap);
     std::optional<fetex::SamplerCost> cost(const fetex::FbtTexture& texture);
+    std::optional<fetex::SamplerCost> area_cost(const fetex::FbtTexture& texture);
+    /// Through the hardware's filter where a probe finds that good enough.
+    std::optional<fetex::SamplerCost> cost(const fetex::BilevelTexture& texture);
+    std::optional<fetex::SamplerCost> area_cost(const fetex::BilevelTexture& texture);
     std::optional<fetex::SamplerCost> cost(const measure::FieldPicture& field);
     /// Of the bitmap itself: 1 but for noise.
     std::optional<fetex::SamplerCost> cost_of_bitmap();
 
   private:
+    fetex::RuntimeStatus upload(const fetex::BilevelTexture& texture);
     std::optional<fetex::SamplerCost> timed(const fetex::RuntimeStatus& uploaded, fetex::Sampler sampler);
 
     std::optional<fetex::Renderer> gl_;

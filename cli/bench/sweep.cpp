@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "cli/bench/compile_time.h"
+#include "cli/bilevel_budget.h"
+#include "cli/compile_bilevel.h"
 #include "cli/io.h"
 #include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
+#include "compiler/measure/pictures.h"
 #include "compiler/measure/sparse_bitmap.h"
 #include "compiler/svg/svg.h"
 
@@ -60,6 +64,14 @@ class BitmapLadder {
     std::map<std::uint32_t, double> errors_; ///< ppm, by the longer side
 };
 
+/// What is held against the FBT, in as many bytes.
+struct Rival {
+    BenchPoint point;
+    std::unique_ptr<const fetex::BilevelTexture> texture; ///< what the picture of a bi-level texture looks into
+    std::unique_ptr<const measure::Picture> picture;      ///< null: doesn't apply to the drawing
+    std::function<Status(const Scene&)> make;             ///< again, on one thread
+};
+
 /// The sweep of one drawing.
 class Sweep {
   public:
@@ -72,13 +84,13 @@ class Sweep {
     Status load(std::vector<Diagnostic>& diagnostics);
     Status add_size(std::uint32_t size);
     Result<BenchPoint> fbt_point(const fetex::FbtTexture& texture, std::uint32_t size);
-    [[nodiscard]] BenchPoint alternative_point(Alternative kind, const measure::Picture* picture, GridSize texels,
-                                               std::uint32_t size) const;
+    [[nodiscard]] BenchPoint rival_point(const char* method, std::uint32_t size, std::string note) const;
+    Result<Rival> alternative(Alternative kind, std::uint64_t bytes, std::uint32_t size) const;
+    Result<Rival> bilevel(std::uint32_t channels, std::uint64_t bytes, std::uint32_t size) const;
+    Result<std::vector<Rival>> rivals_of(std::uint64_t bytes, std::uint32_t size) const;
     void measure_into(const measure::Picture& picture, BenchPoint& point) const;
-    Status time_into(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
-                     const fetex::FbtTexture& texture);
-    void time_samplers(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
-                       const fetex::FbtTexture& texture);
+    Status time_into(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture);
+    void time_samplers(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture);
     [[nodiscard]] Result<Scene> load_again() const;
     [[nodiscard]] SceneOptions scene_options() const;
     [[nodiscard]] std::uint32_t largest_size() const {
@@ -168,18 +180,78 @@ Result<BenchPoint> Sweep::fbt_point(const fetex::FbtTexture& texture, std::uint3
     return point;
 }
 
-BenchPoint Sweep::alternative_point(Alternative kind, const measure::Picture* picture, GridSize texels,
-                                    std::uint32_t size) const {
+BenchPoint Sweep::rival_point(const char* method, std::uint32_t size, std::string note) const {
     BenchPoint point;
-    point.file = path_, point.method = measure::alternative_name(kind), point.size = size;
-    if (kind == Alternative::DistanceField) point.options = fmt::format("range={:g}", measure::kDistanceRange);
-    point.texels = texels;
-    point.note = measure::why_not(*truth_, kind);
-    if (picture != nullptr) measure_into(*picture, point);
+    point.file = path_, point.method = method, point.size = size, point.note = std::move(note);
     return point;
 }
 
-/// The FBT, then every alternative, applicable or not.
+Result<Rival> Sweep::alternative(Alternative kind, std::uint64_t bytes, std::uint32_t size) const {
+    Rival rival;
+    rival.point = rival_point(measure::alternative_name(kind), size, measure::why_not(*truth_, kind));
+    if (kind == Alternative::DistanceField) rival.point.options = fmt::format("range={:g}", measure::kDistanceRange);
+    const GridSize texels = measure::grid_of_bytes(truth_->height(), bytes, measure::bytes_per_texel(kind));
+    rival.point.texels = texels;
+    if (!rival.point.note.empty()) return rival;
+    auto made = measure::make_alternative(*truth_, kind, texels, options_.threads);
+    if (!made) return made.error();
+    rival.picture = std::move(made).value();
+    rival.make = [kind, texels](const Scene& scene) -> Status {
+        const auto truth = measure::Truth::of(scene, 1);
+        if (!truth) return truth.error();
+        const auto again = measure::make_alternative(*truth.value(), kind, texels, 1);
+        return again ? Status() : Status(again.error());
+    };
+    return rival;
+}
+
+Result<BilevelBuild> bilevel_of(const Scene& scene, std::uint32_t channels, std::uint64_t bytes, unsigned threads) {
+    const auto silhouette = silhouette_of(scene, SilhouetteRule{}, threads);
+    if (!silhouette) return silhouette.error();
+    BilevelOptions options;
+    options.channels = channels, options.threads = threads;
+    return compile_bilevel_within(silhouette.value(), options, bytes);
+}
+
+/// channels 0: whichever shows least wrong.
+Result<Rival> Sweep::bilevel(std::uint32_t channels, std::uint64_t bytes, std::uint32_t size) const {
+    Rival rival;
+    rival.point = rival_point(channels == 1 ? kBilevelOneMethod : kBilevelMethod, size,
+                              measure::why_not(*truth_, Alternative::BoxThreshold));
+    rival.point.texels = measure::grid_of_bytes(truth_->height(), bytes, 1);
+    if (!rival.point.note.empty()) return rival;
+    auto made = bilevel_of(scene_, channels, bytes, options_.threads);
+    if (!made) return made.error();
+    rival.texture = std::make_unique<const fetex::BilevelTexture>(std::move(made.value().texture));
+    rival.picture = std::make_unique<const measure::BilevelPicture>(*rival.texture);
+    rival.point.options = fmt::format("rule={}", rule_name(rival.texture->rule));
+    rival.make = [channels, bytes](const Scene& scene) -> Status {
+        const auto again = bilevel_of(scene, channels, bytes, 1);
+        return again ? Status() : Status(again.error());
+    };
+    return rival;
+}
+
+/// The bitmap first.
+Result<std::vector<Rival>> Sweep::rivals_of(std::uint64_t bytes, std::uint32_t size) const {
+    std::vector<Rival> rivals;
+    const auto add = [&](Result<Rival> rival) -> Status {
+        if (!rival) return rival.error();
+        rivals.push_back(std::move(rival).value());
+        if (rivals.back().picture) measure_into(*rivals.back().picture, rivals.back().point);
+        return {};
+    };
+    for (const Alternative kind : measure::kAlternatives) {
+        if (const Status status = add(alternative(kind, bytes, size)); !status) return status.error();
+    }
+    for (const std::uint32_t channels : {1u, 0u}) {
+        if (!options_.bilevel) break;
+        if (const Status status = add(bilevel(channels, bytes, size)); !status) return status.error();
+    }
+    return rivals;
+}
+
+/// The FBT, then all the others, applicable or not.
 Status Sweep::add_size(std::uint32_t size) {
     say(size, "compiling and measuring");
     const GridSize grid = grid_for(scene_.extent, size);
@@ -188,76 +260,67 @@ Status Sweep::add_size(std::uint32_t size) {
     const fetex::FbtTexture& texture = build.value().texture;
     auto fbt = fbt_point(texture, size);
     if (!fbt) return fbt.error();
-    std::vector<BenchPoint> points = {std::move(fbt).value()};
-    std::vector<std::unique_ptr<measure::Picture>> pictures(1); // as points: nothing for the FBT
     say(size, "alternatives");
-    for (const Alternative kind : measure::kAlternatives) {
-        const GridSize texels =
-            measure::grid_of_bytes(truth_->height(), points.front().bytes, measure::bytes_per_texel(kind));
-        std::unique_ptr<measure::Picture> picture;
-        if (measure::why_not(*truth_, kind).empty()) {
-            auto made = measure::make_alternative(*truth_, kind, texels, options_.threads);
-            if (!made) return made.error();
-            picture = std::move(made).value();
-        }
-        points.push_back(alternative_point(kind, picture.get(), texels, size));
-        pictures.push_back(std::move(picture));
-    }
+    auto rivals = rivals_of(fbt.value().bytes, size);
+    if (!rivals) return rivals.error();
     if (options_.timing) {
         say(size, "timing");
-        if (const Status status = time_into(points, pictures, texture); !status) return status;
+        if (const Status status = time_into(fbt.value(), rivals.value(), texture); !status) return status;
     }
-    std::move(points.begin(), points.end(), std::back_inserter(out_.points));
+    out_.points.push_back(std::move(fbt).value());
+    for (Rival& rival : rivals.value())
+        out_.points.push_back(std::move(rival.point));
     return {};
 }
 
-/// Front end included, one thread: an alternative needs the drawing too.
-Status Sweep::time_into(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
-                        const fetex::FbtTexture& texture) {
+/// Front end included, one thread: the others need the drawing too.
+Status Sweep::time_into(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture) {
     const GridSize grid{texture.width, texture.height};
-    std::vector<Work> works = {[&]() -> Status {
-        const auto scene = load_again();
-        if (!scene) return scene.error();
-        const auto build = compile_fbt(scene.value(), {grid, 1, {}});
-        return build ? Status() : Status(build.error());
-    }};
-    std::vector<std::size_t> timed = {0};
-    for (std::size_t k = 1; k < points.size(); ++k) {
-        if (!pictures[k]) continue;
-        timed.push_back(k);
-        works.emplace_back([&, k]() -> Status {
+    const auto with_scene = [this](std::function<Status(const Scene&)> make) -> Work {
+        return [this, make = std::move(make)]() -> Status {
             const auto scene = load_again();
-            if (!scene) return scene.error();
-            const auto truth = measure::Truth::of(scene.value(), 1);
-            if (!truth) return truth.error();
-            const auto made =
-                measure::make_alternative(*truth.value(), measure::kAlternatives[k - 1], points[k].texels, 1);
-            return made ? Status() : Status(made.error());
-        });
+            return scene ? make(scene.value()) : Status(scene.error());
+        };
+    };
+    std::vector<BenchPoint*> timed = {&fbt};
+    std::vector<Work> works = {with_scene([grid](const Scene& scene) -> Status {
+        const auto build = compile_fbt(scene, {grid, 1, {}});
+        return build ? Status() : Status(build.error());
+    })};
+    for (Rival& rival : rivals) {
+        if (!rival.picture) continue;
+        timed.push_back(&rival.point);
+        works.push_back(with_scene(rival.make));
     }
     const auto times = time_works(works, options_.compile_rounds);
     if (!times) return times.error();
-    for (std::size_t n = 0; n < timed.size(); ++n)
-        points[timed[n]].times = BenchTimes{times.value()[n].seconds, times.value()[n].ratio, {}, {}};
-    time_samplers(points, pictures, texture);
+    for (std::size_t n = 0; n < timed.size(); ++n) {
+        timed[n]->times.emplace();
+        timed[n]->times->compile_seconds = times.value()[n].seconds;
+        timed[n]->times->compile_ratio = times.value()[n].ratio;
+    }
+    time_samplers(fbt, rivals, texture);
     return {};
 }
 
 /// All against the bitmap of equal bytes.
-void Sweep::time_samplers(std::span<BenchPoint> points, std::span<const std::unique_ptr<measure::Picture>> pictures,
-                          const fetex::FbtTexture& texture) {
+void Sweep::time_samplers(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture) {
     if (timer_ == nullptr) return;
     const auto set = [&](BenchPoint& point, const std::optional<fetex::SamplerCost>& cost) {
         point.times->sampler = cost;
         if (!cost) point.times->why_no_sampler = timer_->why();
     };
-    const auto& bitmap = dynamic_cast<const measure::BitmapPicture&>(*pictures[1]);
+    const auto& bitmap = dynamic_cast<const measure::BitmapPicture&>(*rivals.front().picture);
     timer_->compare_with(bitmap);
-    set(points[0], timer_->cost(texture));
-    set(points[1], timer_->cost_of_bitmap());
-    for (std::size_t k = 2; k < points.size(); ++k) {
-        if (const auto* field = dynamic_cast<const measure::FieldPicture*>(pictures[k].get()))
-            set(points[k], timer_->cost(*field));
+    set(fbt, timer_->cost(texture));
+    fbt.times->area_sampler = timer_->area_cost(texture);
+    set(rivals.front().point, timer_->cost_of_bitmap());
+    for (Rival& rival : rivals) {
+        if (const auto* field = dynamic_cast<const measure::FieldPicture*>(rival.picture.get()))
+            set(rival.point, timer_->cost(*field));
+        if (!rival.texture) continue;
+        set(rival.point, timer_->cost(*rival.texture));
+        rival.point.times->area_sampler = timer_->area_cost(*rival.texture);
     }
 }
 

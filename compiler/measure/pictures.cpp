@@ -13,9 +13,14 @@ Rgba FbtPicture::at(TexturePoint p) const {
     return {c.r, c.g, c.b, c.a};
 }
 
-std::uint64_t FbtPicture::gpu_bytes() const {
-    return fetex::fbt_gpu_bytes(texture_);
+std::uint64_t FbtPicture::gpu_bytes() const { return fetex::fbt_gpu_bytes(texture_); }
+
+Rgba BilevelPicture::at(TexturePoint p) const {
+    const fetex::FbtColor c = fetex::bilevel_sample(texture_, p.u * texture_.width, p.v * texture_.height);
+    return {c.r, c.g, c.b, c.a};
 }
+
+std::uint64_t BilevelPicture::gpu_bytes() const { return fetex::bilevel_gpu_bytes(texture_); }
 
 BitmapPicture::BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filter filter)
     : size_(size), rgba_(std::move(rgba)), filter_(filter) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Pictures to judge: an FBT through the reference sampler, and a bitmap.
+/// Pictures to judge: an FBT and a bi-level texture through the reference samplers, and a bitmap.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "compiler/measure/picture.h"
+#include "formats/bilevel.h"
 #include "formats/fbt.h"
 
 namespace fetexc::measure {
@@ -20,6 +21,19 @@ class FbtPicture final : public Picture {
 
   private:
     const fetex::FbtTexture& texture_;
+};
+
+/// Cut hard.
+class BilevelPicture final : public Picture {
+  public:
+    /// A validated texture that outlives the picture.
+    explicit BilevelPicture(const fetex::BilevelTexture& texture) : texture_(texture) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return {texture_.width, texture_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override;
+
+  private:
+    const fetex::BilevelTexture& texture_;
 };
 
 /// Stretched over the canvas, without mip levels; borders are clamped.

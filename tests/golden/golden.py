@@ -11,27 +11,37 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 LIST = HERE / "golden.sha256"
-SIZES = (64, 128)
+SIZES = (64, 128)  # texels of FBTs
+BYTES = (768, 3072)  # of bi-level textures, mip levels included
 JOBS = (1, 2)
 TIME_LIMIT = 300  # seconds for one drawing
 
 
-def compile_digest(fetexc, drawing, size, jobs, folder):
+def compile_digest(fetexc, drawing, how, jobs, folder):
     output = pathlib.Path(folder) / "out.fetex"
-    args = [fetexc, "compile", drawing, "-o", output, "--size", str(size), "-j", str(jobs), "-q"]
+    args = [fetexc, "compile", drawing, "-o", output, *how, "-j", str(jobs), "-q"]
     subprocess.run(args, check=True, timeout=TIME_LIMIT, stdout=subprocess.DEVNULL)
     return hashlib.sha256(output.read_bytes()).hexdigest()
+
+
+def assets(art):
+    """Yields (name, drawing, options): all drawings as FBTs, those of two colours as bi-level textures."""
+    for drawing in sorted(art.glob("*.svg")):
+        for size in SIZES:
+            yield f"{drawing.stem}.{size}.fbt", drawing, ["--size", str(size)]
+    for drawing in sorted((art / "alternatives").glob("*.svg")):
+        for size in BYTES:
+            options = ["--repr", "bilevel", "--mips", "--max-bytes", str(size)]
+            yield f"alternatives/{drawing.stem}.{size}.bilevel", drawing, options
 
 
 def digests(fetexc, art):
     """Yields (name, digest, problem)."""
     with tempfile.TemporaryDirectory(prefix="fetexc-golden-") as folder:
-        for drawing in sorted(art.glob("*.svg")):
-            for size in SIZES:
-                name = f"{drawing.stem}.{size}.fbt"
-                found = {compile_digest(fetexc, drawing, size, jobs, folder) for jobs in JOBS}
-                problem = "" if len(found) == 1 else f"-j {JOBS[0]} and -j {JOBS[1]} give different bytes"
-                yield name, min(found), problem
+        for name, drawing, how in assets(art):
+            found = {compile_digest(fetexc, drawing, how, jobs, folder) for jobs in JOBS}
+            problem = "" if len(found) == 1 else f"-j {JOBS[0]} and -j {JOBS[1]} give different bytes"
+            yield name, min(found), problem
 
 
 def read_list():

@@ -14,8 +14,8 @@ BEGIN, END = "<!-- diagnostics: ./dev docs -->", "<!-- end of diagnostics -->"
 
 
 def letter(number):
-    """2001 … 2099 are warnings, 2101 … notes, and 4101 … findings that stop nothing."""
-    if 2000 <= number < 2100 or 4100 <= number < 4200:
+    """2001 … 2099 are warnings, 2101 … notes, 4101 … and 5101 … findings that stop nothing."""
+    if 2000 <= number < 2100 or 4100 <= number < 4200 or 5100 <= number < 5200:
         return "W"
     return "N" if 2100 <= number < 3000 else "E"
 

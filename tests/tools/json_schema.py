@@ -73,6 +73,13 @@ def check_required(value, rule, _schema, _root, where):
             yield f"{where}: lacks {name}"
 
 
+def check_dependentRequired(value, rule, _schema, _root, where):
+    for name, needed in rule.items():
+        for other in needed:
+            if isinstance(value, dict) and name in value and other not in value:
+                yield f"{where}: has {name} but lacks {other}"
+
+
 def check_properties(value, rule, _schema, root, where):
     if isinstance(value, dict):
         for name, sub in rule.items():
