@@ -95,9 +95,11 @@ std::string trace_text(const BilevelFit& fit) {
 
 std::string fit_text(const BilevelFit& f) {
     const double texels = static_cast<double>(f.width) * f.height;
-    std::string text = fmt::format("  {:<10} {} x {} texels of {} bytes: {:.0f} ppm wrong; {:.1f}% of texels fitted\n",
-                                   rule_name(f.rule), f.width, f.height, fetex::bilevel_channels(f.rule), 1e6 * f.wrong,
-                                   100 * static_cast<double>(f.texels_fitted) / texels);
+    const std::uint32_t channels = fetex::bilevel_channels(f.rule);
+    std::string text =
+        fmt::format("  {:<10} {} x {} texels, {} channel{}: {:.0f} ppm wrong; {:.1f}% of texels fitted\n",
+                    rule_name(f.rule), f.width, f.height, channels, channels == 1 ? "" : "s", 1e6 * f.wrong,
+                    100 * static_cast<double>(f.texels_fitted) / texels);
     text +=
         fmt::format("             {} steps of the contour{}, then {} values tried; ppm after steps 1, 2, 4 … {}: {}\n",
                     f.contour_steps, f.paper_start ? " from the paper's equations" : "", f.bytes_tried, f.trace.size(),

@@ -15,16 +15,15 @@ namespace fetexc::cli {
 
 /// Names of methods in tables and plots; the alternatives' are measure::alternative_name's.
 inline constexpr const char* kFbtMethod = "feature-based texture";
-inline constexpr const char* kBilevelOneMethod = "bi-level, one channel";
-inline constexpr const char* kBilevelMethod = "bi-level, best channels";
+inline constexpr const char* kBilevelOneMethod = "bi-level R8";
+inline constexpr const char* kBilevelMethod = "bi-level of 1 to 3 channels";
 
 /// By the clock, in one run on one machine.
 struct BenchTimes {
     double compile_seconds = 0; ///< processor time, one thread
     double compile_ratio = 0;   ///< median of the ratios to the yardstick (compile_time.h)
     std::optional<fetex::SamplerCost> sampler;
-    std::optional<fetex::SamplerCost> area_sampler; ///< of means over pixels; FBTs and bi-level textures
-    std::string why_no_sampler;                     ///< if there is none
+    std::string why_no_sampler; ///< if there is none
 };
 
 struct BenchPoint {
