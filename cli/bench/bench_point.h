@@ -23,7 +23,8 @@ struct BenchTimes {
     double compile_seconds = 0; ///< processor time, one thread
     double compile_ratio = 0;   ///< median of the ratios to the yardstick (compile_time.h)
     std::optional<fetex::SamplerCost> sampler;
-    std::string why_no_sampler; ///< if there is none
+    std::string why_no_sampler;                          ///< if there is none
+    std::optional<fetex::SamplerCost> area_sampler = {}; ///< of means over pixels; FBTs and bi-level textures
 };
 
 struct BenchPoint {
