@@ -190,7 +190,7 @@ class ChannelAssigner {
 class SegmentBuckets {
   public:
     SegmentBuckets(std::span<const OutlineSegment> outline, std::uint32_t width, std::uint32_t height, double reach)
-        : width_(width), first_(std::size_t{width} * height + 1, 0) {
+        : first_(std::size_t{width} * height + 1, 0) {
         const auto each = [&](const auto& visit) {
             for (std::uint32_t k = 0; k < outline.size(); ++k) {
                 const OutlineSegment& s = outline[k];
@@ -217,7 +217,6 @@ class SegmentBuckets {
     }
 
   private:
-    std::uint32_t width_;
     std::vector<std::uint32_t> first_, items_;
 };
 
