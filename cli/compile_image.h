@@ -36,7 +36,7 @@ Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& 
                                std::vector<Diagnostic>& diagnostics);
 
 /// An image of any kind that OpenImageIO reads. bright: colours up to 65504, encoded, else up to 1. Errors 1101 … 1103,
-/// 8052.
+/// 8053.
 Result<RasterImage> read_image(const std::string& path, bool bright, std::vector<Diagnostic>& diagnostics);
 
 /// --image, --features, --trace, --trace-contrast, --trace-speck, --invalidate. Returns --image.

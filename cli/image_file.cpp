@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <system_error>
-
-#include <dlfcn.h>
 
 #include "cli/options.h"
 #include "cli/png_module.h"
 #include "compiler/diagnostics.h"
+#include "compiler/module/module.h"
 
 namespace fetexc::cli {
 namespace {
@@ -21,18 +18,6 @@ std::uint8_t to_byte(double value) { return static_cast<std::uint8_t>(std::lroun
 
 Error encode_error(const std::string& why) {
     return {ErrorClass::Runtime, diag::kCannotEncodePicture, "can't encode the PNG: " + why, {}};
-}
-
-/// Beside the program, or where the build puts it beside the test programs; not through the search path, which
-/// sanitizers bend and strangers may write to.
-void* open_module() {
-    std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
-    if (failed) return nullptr;
-    for (const char* place : {".", "../cli"}) {
-        if (void* module = dlopen((folder / place / kPngModule).c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
-    }
-    return nullptr;
 }
 
 /// Straight alpha to premultiplied, rounded once.
@@ -45,15 +30,9 @@ void premultiply(std::vector<std::uint8_t>& rgba) {
 
 } // namespace
 
-/// Stays loaded: OpenImageIO's own threads may outlive a call.
 Result<void*> module_symbol(const char* name) {
-    static void* const module = open_module();
-    if (module == nullptr)
-        return Error{ErrorClass::Runtime, diag::kInternal, std::string("no ") + kPngModule + " beside the program", {}};
-    void* const address = dlsym(module, name);
-    if (address == nullptr)
-        return Error{ErrorClass::Runtime, diag::kInternal, std::string(kPngModule) + " lacks " + name, {}};
-    return address;
+    static const Module module(kPngModule);
+    return module.symbol(name);
 }
 
 std::vector<std::uint8_t> to_straight_rgba8(const fetex::Image& image) {

@@ -28,7 +28,7 @@ Result<DecodedPicture> decode_png(std::span<const std::uint8_t> bytes);
 /// Two pictures of equal height, side by side, `gap` pixels of a dark line between.
 fetex::Image side_by_side(const fetex::Image& left, const fetex::Image& right, std::uint32_t gap);
 
-/// A function of the module (png_module.h), which is loaded now if it isn't yet. Error E8052.
+/// A function of the module (png_module.h), which is loaded now if it isn't yet. Error kNoModule.
 Result<void*> module_symbol(const char* name);
 
 } // namespace fetexc::cli

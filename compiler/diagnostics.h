@@ -104,6 +104,7 @@ inline constexpr int kBadUsage = 8041;            ///< unknown option, bad value
 inline constexpr int kBeyondThreshold = 8045;     ///< `compare`: the difference is beyond a threshold (exit code 7)
 inline constexpr int kOutOfMemory = 8051;         ///< the machine has no more memory
 inline constexpr int kInternal = 8052;            ///< an error of the program itself
+inline constexpr int kNoModule = 8053;            ///< a library of the program's own isn't where it belongs, or can't be loaded
 
 // Container, seen from the command line; the findings themselves are F numbers (formats/findings.h)
 inline constexpr int kInvalidFetex = 6001;          ///< the .fetex file breaks a rule of SPEC.md

@@ -34,7 +34,7 @@ struct Fitted {
 };
 
 /// One texture of one rule.
-Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, MidGreys greys) {
+Fitted fit_rule(const Solver& solver, const Silhouette& silhouette, GridSize size, BilevelRule rule, MidGreys greys) {
     Fitted out;
     out.fit.rule = rule, out.fit.width = size.width, out.fit.height = size.height;
     const std::vector<OutlineSegment> outline = outline_in_texels(silhouette, size.width, size.height);
@@ -53,11 +53,11 @@ Fitted fit_rule(const Silhouette& silhouette, GridSize size, BilevelRule rule, M
     out.values = seed_values(cells, scanned, outline, reach, window);
     if (rule == BilevelRule::Single) {
         std::vector<std::uint8_t> paper = out.values;
-        fit_intersections_and_angles(cells, outline, paper);
+        fit_intersections_and_angles(solver, cells, outline, paper);
         out.fit.paper_start = cells.wrong_area(paper) < cells.wrong_area(out.values);
         if (out.fit.paper_start) out.values = std::move(paper);
     }
-    fit_contour(cells, out.values, kContourSteps, out.fit.trace);
+    fit_contour(solver, cells, out.values, kContourSteps, out.fit.trace);
     out.fit.contour_steps = out.fit.trace.size();
     out.fit.bytes_tried = fit_bytes(cells, out.values, greys, {kSweeps, 0}, out.fit.trace);
     const ScannedOutline finer(silhouette, outline, size.width, size.height, effort.polish_lines);
@@ -89,6 +89,8 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     const GridSize size = options.size;
     if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize)
         return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
+    const Result<const Solver*> solver = load_solver();
+    if (!solver) return solver.error();
     std::vector<BilevelRule> rules;
     for (const BilevelRule rule : {BilevelRule::Single, BilevelRule::Min, BilevelRule::Max, BilevelRule::Median}) {
         if (options.channels == 0 || options.channels == fetex::bilevel_channels(rule)) rules.push_back(rule);
@@ -97,7 +99,8 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     std::vector<Fitted> fits(rules.size());
     parallel_for(rules.size(), options.threads, [&](std::size_t k) {
         const std::uint32_t channels = fetex::bilevel_channels(rules[k]);
-        fits[k] = fit_rule(silhouette, options.exact_size ? size : shrunk(size, channels), rules[k], options.greys);
+        fits[k] = fit_rule(*solver.value(), silhouette, options.exact_size ? size : shrunk(size, channels), rules[k],
+                           options.greys);
     });
     std::stable_sort(fits.begin(), fits.end(),
                      [](const Fitted& a, const Fitted& b) { return a.fit.wrong < b.fit.wrong; });

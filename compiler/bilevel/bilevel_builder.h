@@ -46,7 +46,7 @@ struct BilevelBuild {
     BilevelStats stats;
 };
 
-/// Errors: size out of range.
+/// Errors: size out of range, and those of load_solver.
 Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const BilevelOptions& options,
                                      const ProgressSink& progress = {});
 

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-
-#include <ceres/ceres.h>
 
 #include "compiler/error_budget.h"
 
@@ -19,40 +16,38 @@ std::array<double, 4> corner_weights(double u, double v) {
     return {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
 }
 
-/// The texels' values as Ceres' parameter blocks, a texel each.
+/// The texels' values as a problem's unknowns, a block each.
 class Unknowns {
   public:
     Unknowns(const ThresholdCells& cells, const std::vector<std::uint8_t>& values)
         : cells_(cells), block_(std::size_t{cells.width()} * cells.height(), kNone) {
         const std::uint32_t n = cells.channels();
-        for (const std::uint32_t t : cells.texels()) {
-            block_[t] = static_cast<std::uint32_t>(numbers_.size());
+        for (std::uint32_t k = 0; k < cells.texels().size(); ++k) {
+            const std::uint32_t t = cells.texels()[k];
+            block_[t] = k;
             for (std::uint32_t c = 0; c < n; ++c)
                 numbers_.push_back(values[std::size_t{t} * n + c] / 255.0);
         }
     }
 
     /// Of a texel of the cells'.
-    [[nodiscard]] double* block(std::uint32_t texel) { return numbers_.data() + block_[texel]; }
+    [[nodiscard]] std::uint32_t block(std::uint32_t texel) const { return block_[texel]; }
     [[nodiscard]] bool fitted(std::uint32_t texel) const { return block_[texel] != kNone; }
 
-    void bound(ceres::Problem& problem) {
-        for (const std::uint32_t t : cells_.texels()) {
-            double* b = block(t);
-            if (!problem.HasParameterBlock(b)) continue;
-            for (std::uint32_t c = 0; c < cells_.channels(); ++c) {
-                problem.SetParameterLowerBound(b, static_cast<int>(c), 0.0);
-                problem.SetParameterUpperBound(b, static_cast<int>(c), 1.0);
-            }
-        }
+    /// Between 0 and 1; no residuals yet.
+    [[nodiscard]] LeastSquares problem() {
+        LeastSquares out;
+        out.unknowns = numbers_, out.block_size = cells_.channels();
+        out.low = 0, out.high = 1;
+        return out;
     }
 
     void round_into(std::vector<std::uint8_t>& values) const {
         const std::uint32_t n = cells_.channels();
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < n; ++c)
-                values[std::size_t{t} * n + c] =
-                    static_cast<std::uint8_t>(std::lround(std::clamp(numbers_[block_[t] + c], 0.0, 1.0) * 255));
+                values[std::size_t{t} * n + c] = static_cast<std::uint8_t>(
+                    std::lround(std::clamp(numbers_[std::size_t{block_[t]} * n + c], 0.0, 1.0) * 255));
         }
     }
 
@@ -62,33 +57,19 @@ class Unknowns {
     std::vector<double> numbers_;
 };
 
-ceres::Solver::Options solver_options(int steps) {
-    ceres::Solver::Options o;
-    o.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    o.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE; // no BLAS: the same numbers on every machine
-    o.num_threads = 1;
-    o.max_num_iterations = steps;
-    o.logging_type = ceres::SILENT;
-    // Values that the outline says little about stay near where they are.
-    o.jacobi_scaling = false;
-    o.initial_trust_region_radius = o.max_trust_region_radius = budget::kFitTrustRadius;
-    o.min_lm_diagonal = budget::kFitLeastDiagonal;
-    o.function_tolerance = budget::kFitTolerance;
-    return o;
+LeastSquaresOptions fit_options(int steps) {
+    return {steps, budget::kFitTrustRadius, budget::kFitLeastDiagonal, budget::kFitTolerance, {}};
 }
 
 /// Distance along a scan line from the texture's crossing to one of the outline.
-class CrossingResidual final : public ceres::CostFunction {
+class CrossingResidual {
   public:
     CrossingResidual(BilevelRule rule, const Cell& cell, double across, double at, bool enters)
         : rule_(rule), channels_(fetex::bilevel_channels(rule)), along_rows_(cell.along_rows), low_(cell.low),
-          high_(cell.high), across_(across), at_(at), enters_(enters) {
-        set_num_residuals(1);
-        for (int k = 0; k < 4; ++k)
-            mutable_parameter_block_sizes()->push_back(static_cast<int>(channels_));
-    }
+          high_(cell.high), across_(across), at_(at), enters_(enters) {}
 
-    bool Evaluate(double const* const* texels, double* residual, double** derivatives) const override {
+    /// As LeastSquares::evaluate; the blocks are the cell's texels.
+    void evaluate(const double* const* texels, double* residual, double** derivatives) const {
         LineValues v;
         std::array<double, 3> from{}, to{};
         for (std::uint32_t c = 0; c < channels_; ++c) {
@@ -105,14 +86,13 @@ class CrossingResidual final : public ceres::CostFunction {
         // Where the texture has no such crossing: as if it went on as steeply from here.
         const double missing = 0.5 - (from[channel] + (to[channel] - from[channel]) * at);
         residual[0] = std::clamp(at + missing / slope - at_, -kFarthest, kFarthest);
-        if (derivatives == nullptr) return true;
+        if (derivatives == nullptr) return;
         const std::array<double, 4> weight = along_rows_ ? corner_weights(at, across_) : corner_weights(across_, at);
         for (std::size_t k = 0; k < 4; ++k) {
             if (derivatives[k] == nullptr) continue;
             std::fill_n(derivatives[k], channels_, 0.0);
             derivatives[k][channel] = -weight[k] / slope;
         }
-        return true;
     }
 
   private:
@@ -152,21 +132,22 @@ class CrossingResidual final : public ceres::CostFunction {
 };
 
 /// Remembers the best rounded values, and ends the fit when they get worse.
-class Watch final : public ceres::IterationCallback {
+class Watch {
   public:
     Watch(const ThresholdCells& cells, const Unknowns& unknowns, std::vector<std::uint8_t>& best, FitTrace& trace)
         : cells_(cells), unknowns_(unknowns), best_(best), now_(best), trace_(trace), least_(cells.wrong_area(best)) {}
 
-    ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    /// Whether to go on.
+    bool operator()(int step) {
         unknowns_.round_into(now_);
         const double area = cells_.wrong_area(now_);
-        if (step.iteration > 0) trace_.push_back(area);
+        if (step > 0) trace_.push_back(area);
         if (area < least_) {
             least_ = area, best_ = now_, worse_ = 0;
-        } else if (step.iteration > 0 && ++worse_ >= kPatience) {
-            return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+        } else if (step > 0 && ++worse_ >= kPatience) {
+            return false;
         }
-        return ceres::SOLVER_CONTINUE;
+        return true;
     }
 
   private:
@@ -181,35 +162,55 @@ class Watch final : public ceres::IterationCallback {
     int worse_ = 0;
 };
 
-} // namespace
-
-namespace {
-
 /// Σ factor·value − wanted, over values of one channel.
-class LinearResidual final : public ceres::CostFunction {
-  public:
-    LinearResidual(std::vector<double> factors, double wanted) : factors_(std::move(factors)), wanted_(wanted) {
-        set_num_residuals(1);
-        mutable_parameter_block_sizes()->assign(factors_.size(), 1);
-    }
-    bool Evaluate(double const* const* values, double* residual, double** derivatives) const override {
-        residual[0] = -wanted_;
-        for (std::size_t k = 0; k < factors_.size(); ++k) {
-            residual[0] += factors_[k] * values[k][0];
-            if (derivatives != nullptr && derivatives[k] != nullptr) derivatives[k][0] = factors_[k];
+struct LinearResidual {
+    std::array<double, 6> factors{};
+    double wanted = 0;
+
+    void evaluate(const double* const* values, double* residual, double** derivatives) const {
+        residual[0] = -wanted;
+        for (std::size_t k = 0; k < factors.size(); ++k) {
+            residual[0] += factors[k] * values[k][0];
+            if (derivatives != nullptr && derivatives[k] != nullptr) derivatives[k][0] = factors[k];
         }
-        return true;
+    }
+};
+
+/// A problem with its residuals, all of one kind, which has `evaluate` as LeastSquares.
+template <class Kind> class Problem {
+  public:
+    /// losses: of all residuals.
+    explicit Problem(Unknowns& unknowns, std::vector<ResidualLoss> losses = {ResidualLoss{}})
+        : stated_(unknowns.problem()), losses_(std::move(losses)) {}
+
+    void add(Kind kind, std::span<const std::uint32_t> blocks, std::uint32_t loss = 0, std::uint32_t values = 1) {
+        const auto first = static_cast<std::uint32_t>(blocks_.size()),
+                   count = static_cast<std::uint32_t>(blocks.size());
+        residuals_.push_back({first, count, loss, values});
+        blocks_.insert(blocks_.end(), blocks.begin(), blocks.end());
+        kinds_.push_back(std::move(kind));
+    }
+
+    void solve(const Solver& solver, const LeastSquaresOptions& options) {
+        stated_.blocks = blocks_, stated_.residuals = residuals_, stated_.losses = losses_;
+        stated_.evaluate = [this](std::uint32_t k, const double* const* blocks, double* values, double** derivatives) {
+            kinds_[k].evaluate(blocks, values, derivatives);
+        };
+        solver.least_squares(stated_, options);
     }
 
   private:
-    std::vector<double> factors_;
-    double wanted_;
+    LeastSquares stated_;
+    std::vector<ResidualLoss> losses_;
+    std::vector<Residual> residuals_;
+    std::vector<std::uint32_t> blocks_;
+    std::vector<Kind> kinds_;
 };
 
 /// The paper's equations, where the outline crosses the lines through the texels' centres along one axis.
 class IntersectionsAndAngles {
   public:
-    IntersectionsAndAngles(const ThresholdCells& cells, Unknowns& unknowns, ceres::Problem& problem)
+    IntersectionsAndAngles(const ThresholdCells& cells, const Unknowns& unknowns, Problem<LinearResidual>& problem)
         : width_(cells.width()), height_(cells.height()), unknowns_(unknowns), problem_(problem) {}
 
     void add(const ScanLines& lines, bool level) {
@@ -228,12 +229,13 @@ class IntersectionsAndAngles {
         const std::uint32_t across = level ? height_ : width_;
         const std::uint32_t before = n == 0 ? n : n - 1, after = n + 1 == across ? n : n + 1;
         if (before == n || after == n) return;
-        std::vector<double*> blocks;
+        std::array<std::uint32_t, 6> blocks{};
+        std::size_t count = 0;
         for (const std::uint32_t line : {n, before, after}) {
             for (const std::uint32_t place : {k, k + 1}) {
                 const std::uint32_t texel = level ? line * width_ + place : place * width_ + line;
                 if (!unknowns_.fitted(texel)) return;
-                blocks.push_back(unknowns_.block(texel));
+                blocks[count++] = unknowns_.block(texel);
             }
         }
         // The gradient: along the line the difference of its two, across it half of that of the lines beside it.
@@ -244,77 +246,64 @@ class IntersectionsAndAngles {
         const double turned = 4 * ta * ta * tc * tc; // 0: level or upright, 1: halfway
         const double slope = 0.5 / budget::kSeedReach;
         const auto combined = [&](double a, double b, double weight) {
-            std::vector<double> f(6);
+            std::array<double, 6> f{};
             for (std::size_t m = 0; m < 6; ++m)
                 f[m] = weight / slope * (a * g_along[m] + b * g_across[m]);
             return f;
         };
-        std::vector<double> position(6, 0.0);
+        std::array<double, 6> position{};
         const double weight = std::sqrt(1 - turned + budget::kFitPositionFloor) / slope;
         position[0] = weight * (1 - t), position[1] = weight * t;
-        problem_.AddResidualBlock(new LinearResidual(position, weight * 0.5), nullptr, blocks);
+        problem_.add({position, weight * 0.5}, blocks);
         const double angle = std::sqrt(turned);
-        problem_.AddResidualBlock(new LinearResidual(combined(ta, tc, angle), 0), nullptr, blocks);
+        problem_.add({combined(ta, tc, angle), 0}, blocks);
         const double steep = budget::kFitSteepness;
-        problem_.AddResidualBlock(new LinearResidual(combined(sign * tc, -sign * ta, steep), steep), nullptr, blocks);
+        problem_.add({combined(sign * tc, -sign * ta, steep), steep}, blocks);
     }
 
     std::uint32_t width_, height_;
-    Unknowns& unknowns_;
-    ceres::Problem& problem_;
+    const Unknowns& unknowns_;
+    Problem<LinearResidual>& problem_;
 };
 
 } // namespace
 
-void fit_intersections_and_angles(const ThresholdCells& cells, std::span<const OutlineSegment> outline,
-                                  std::vector<std::uint8_t>& values) {
+void fit_intersections_and_angles(const Solver& solver, const ThresholdCells& cells,
+                                  std::span<const OutlineSegment> outline, std::vector<std::uint8_t>& values) {
     Unknowns unknowns(cells, values);
-    ceres::Problem::Options ownership;
-    ownership.disable_all_safety_checks = true;
-    ceres::Problem problem(ownership);
+    Problem<LinearResidual> problem(unknowns);
     IntersectionsAndAngles equations(cells, unknowns, problem);
     equations.add(ScanLines(outline, cells.height(), 1, true), true);
     equations.add(ScanLines(outline, cells.width(), 1, false), false);
-    if (problem.NumResidualBlocks() == 0) return;
-    unknowns.bound(problem);
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver_options(budget::kFitPaperSteps), &problem, &summary);
+    problem.solve(solver, fit_options(budget::kFitPaperSteps));
     unknowns.round_into(values);
 }
 
-void fit_contour(const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps, FitTrace& trace) {
+void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps,
+                 FitTrace& trace) {
     Unknowns unknowns(cells, values);
-    ceres::Problem::Options ownership;
-    ownership.disable_all_safety_checks = true;
-    ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     // Absolute values beyond the corner of the loss: what counts is area, not its square.
-    ceres::HuberLoss single(budget::kFitExactTo);
-    ceres::ScaledLoss crowded(&single, budget::kFitCrowdedWeight, ceres::DO_NOT_TAKE_OWNERSHIP);
-    ceres::Problem problem(ownership);
+    const ResidualLoss single{budget::kFitExactTo, 1}, crowded{budget::kFitExactTo, budget::kFitCrowdedWeight};
+    Problem<CrossingResidual> problem(unknowns, {single, crowded});
     for (const Cell& c : cells.cells()) {
         const CellTexels corners = cells.corners(c);
         // At the border two corners are one texel: the same block twice is not allowed, and half cells are flat there.
         if (corners[0] == corners[1] || corners[0] == corners[2]) continue;
+        std::array<std::uint32_t, 4> blocks{};
+        std::ranges::transform(corners, blocks.begin(), [&](std::uint32_t texel) { return unknowns.block(texel); });
         for (const CellLine& line : cells.lines(c)) {
             bool above = line.above_first;
             for (const float at : cells.crossings(line)) {
                 above = !above;
-                problem.AddResidualBlock(new CrossingResidual(cells.rule(), c, static_cast<double>(line.across),
-                                                              static_cast<double>(at), above),
-                                         line.crossings > 1 ? static_cast<ceres::LossFunction*>(&crowded) : &single,
-                                         unknowns.block(corners[0]), unknowns.block(corners[1]),
-                                         unknowns.block(corners[2]), unknowns.block(corners[3]));
+                problem.add({cells.rule(), c, static_cast<double>(line.across), static_cast<double>(at), above}, blocks,
+                            line.crossings > 1 ? 1 : 0);
             }
         }
     }
-    if (problem.NumResidualBlocks() == 0) return;
-    unknowns.bound(problem);
     Watch watch(cells, unknowns, values, trace);
-    ceres::Solver::Options options = solver_options(steps);
-    options.callbacks.push_back(&watch);
-    options.update_state_every_iteration = true;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    LeastSquaresOptions options = fit_options(steps);
+    options.goes_on = [&](int step) { return watch(step); };
+    problem.solve(solver, options);
 }
 
 } // namespace fetexc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Fits of the texels' values in real numbers, by Ceres: sparse least squares with 0 ≤ value ≤ 1.
+/// Fits of the texels' values in real numbers: sparse least squares with 0 ≤ value ≤ 1.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/bilevel/threshold_cells.h"
+#include "compiler/solver/solver.h"
 
 namespace fetexc {
 
@@ -17,13 +18,14 @@ using FitTrace = std::vector<double>;
 /// interpolated value is one half there if the outline is nearly level or upright, and the gradient has the outline's
 /// direction elsewhere (Loviscach 2005, "Optimizing the lo-res texture"). Starts from `values`; the result is rounded
 /// to bytes.
-void fit_intersections_and_angles(const ThresholdCells& cells, std::span<const OutlineSegment> outline,
-                                  std::vector<std::uint8_t>& values);
+void fit_intersections_and_angles(const Solver& solver, const ThresholdCells& cells,
+                                  std::span<const OutlineSegment> outline, std::vector<std::uint8_t>& values);
 
 /// Moves the texture's contour onto the outline: the sum over all scan lines of the distance between a crossing of the
 /// outline and the one of the texture nearest to it, which is the wrong area where contours are single; its derivative
 /// by the values is exact, that of the crossing. Steps until the wrong area of the rounded values falls no more, or
 /// `steps` of them; `values` gets the best. Any rule.
-void fit_contour(const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps, FitTrace& trace);
+void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps,
+                 FitTrace& trace);
 
 } // namespace fetexc
