@@ -119,7 +119,9 @@ CompileOptions compile_options(const CompileCommandOptions& options, const Exten
 Status add_bilevel(const Result<Silhouette>& silhouette, const CompileCommandOptions& options,
                    const ProgressSink& progress, std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
     if (!silhouette) return silhouette.error();
-    BilevelRequest request{options.bilevel, {}, options.max_bytes, options.mips, options.threads};
+    BilevelRequest request;
+    request.how = options.bilevel, request.max_bytes = options.max_bytes;
+    request.mips = options.mips, request.threads = options.threads;
     if (options.size_given) request.size = options.size;
     auto built = compile_silhouette(silhouette.value(), request, progress, diagnostics);
     if (!built) return built.error();
