@@ -298,12 +298,12 @@ inline constexpr double kSeedReachOfSeveral = 1;
 inline constexpr double kSeedSearch = 2;
 
 /// Ceres' trust region, and the relative change of the cost at which a fit ends.
-inline constexpr double kFitTrustRadius = 10;
+inline constexpr double kFitTrustRadius = 100;
 inline constexpr double kFitTolerance = 1e-4;
 
 /// Ceres' damping of a value counts at least so much as its own weight; a value that the outline crosses beside has some
-/// units of it. Of 0.05 to 10 what left the least wrong area on six shapes.
-inline constexpr double kFitLeastDiagonal = 0.2;
+/// units of it. Of 0.1 to 0.5 and radii of 3 to 1000 what left the least wrong area on six shapes.
+inline constexpr double kFitLeastDiagonal = 0.5;
 
 /// Texels: distances of contours up to this count by their squares, larger ones by themselves (Huber's loss).
 inline constexpr double kFitExactTo = 0.01;

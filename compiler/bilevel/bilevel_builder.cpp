@@ -23,7 +23,7 @@ struct Effort {
     std::uint32_t fit_lines, polish_lines, verify_lines;
     int pair_sweeps;
 };
-constexpr Effort kEffortOfOne{8, 16, 64, 2}, kEffortOfSeveral{16, 32, 64, 12};
+constexpr Effort kEffortOfOne{8, 16, 64, 2}, kEffortOfSeveral{8, 32, 64, 3};
 constexpr int kContourSteps = 12, kSweeps = 80;
 constexpr std::uint32_t kMaxSize = 16384;
 

@@ -61,74 +61,104 @@ LeastSquaresOptions fit_options(int steps) {
     return {steps, budget::kFitTrustRadius, budget::kFitLeastDiagonal, budget::kFitTolerance, {}};
 }
 
-/// Distance along a scan line from the texture's crossing to one of the outline.
-class CrossingResidual {
+/// Distances along a cell's scan lines from the texture's crossings to those of the outline, by absolute value: their
+/// squares are Huber's loss of them, for what counts is area.
+class CrossingResiduals {
   public:
-    CrossingResidual(BilevelRule rule, const Cell& cell, double across, double at, bool enters)
-        : rule_(rule), channels_(fetex::bilevel_channels(rule)), along_rows_(cell.along_rows), low_(cell.low),
-          high_(cell.high), across_(across), at_(at), enters_(enters) {}
+    CrossingResiduals(const ThresholdCells& cells, const Cell& cell)
+        : rule_(cells.rule()), channels_(cells.channels()), along_rows_(cell.along_rows), low_(cell.low),
+          high_(cell.high) {
+        for (const CellLine& line : cells.lines(cell)) {
+            bool above = line.above_first;
+            const double weight = line.crossings > 1 ? std::sqrt(budget::kFitCrowdedWeight) : 1.0;
+            for (const float at : cells.crossings(line)) {
+                above = !above;
+                wanted_.push_back({static_cast<double>(line.across), static_cast<double>(at), weight, above});
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(wanted_.size()); }
 
     /// As LeastSquares::evaluate; the blocks are the cell's texels.
-    void evaluate(const double* const* texels, double* residual, double** derivatives) const {
+    void evaluate(const double* const* texels, double* residuals, double** derivatives) const {
+        if (derivatives != nullptr) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (derivatives[k] != nullptr) std::fill_n(derivatives[k], wanted_.size() * channels_, 0.0);
+            }
+        }
+        for (std::size_t n = 0; n < wanted_.size(); ++n)
+            residuals[n] = evaluate(wanted_[n], texels, n * channels_, derivatives);
+    }
+
+  private:
+    static constexpr double kFarthest = 0.5; ///< texels: no crossing pulls more
+
+    struct Wanted {
+        double across, at, weight;
+        bool enters;
+    };
+
+    double evaluate(const Wanted& w, double const* const* texels, std::size_t row, double** derivatives) const {
         LineValues v;
         std::array<double, 3> from{}, to{};
         for (std::uint32_t c = 0; c < channels_; ++c) {
             const double v10 = texels[1][c], v01 = texels[2][c];
             const double from1 = along_rows_ ? v01 : v10, to0 = along_rows_ ? v10 : v01;
-            from[c] = texels[0][c] + (from1 - texels[0][c]) * across_;
-            to[c] = to0 + (texels[3][c] - to0) * across_;
+            from[c] = texels[0][c] + (from1 - texels[0][c]) * w.across;
+            to[c] = to0 + (texels[3][c] - to0) * w.across;
             v.from[c] = static_cast<float>(from[c]), v.to[c] = static_cast<float>(to[c]);
         }
-        const auto [channel, at] = responsible(v, from, to);
+        const auto [channel, at] = responsible(w, v, from, to);
         double slope = to[channel] - from[channel];
         const double least = budget::kFitLeastSlope;
-        if ((enters_ ? slope : -slope) < least) slope = enters_ ? least : -least;
+        if ((w.enters ? slope : -slope) < least) slope = w.enters ? least : -least;
         // Where the texture has no such crossing: as if it went on as steeply from here.
         const double missing = 0.5 - (from[channel] + (to[channel] - from[channel]) * at);
-        residual[0] = std::clamp(at + missing / slope - at_, -kFarthest, kFarthest);
-        if (derivatives == nullptr) return;
-        const std::array<double, 4> weight = along_rows_ ? corner_weights(at, across_) : corner_weights(across_, at);
-        for (std::size_t k = 0; k < 4; ++k) {
-            if (derivatives[k] == nullptr) continue;
-            std::fill_n(derivatives[k], channels_, 0.0);
-            derivatives[k][channel] = -weight[k] / slope;
+        const double distance = std::clamp(at + missing / slope - w.at, -kFarthest, kFarthest);
+        const double exact = budget::kFitExactTo, size = std::fabs(distance);
+        const double root = size <= exact ? size : std::sqrt(exact * (2 * size - exact));
+        if (derivatives != nullptr) {
+            const double by_distance = w.weight * (size <= exact ? 1 : exact / root);
+            const std::array<double, 4> weight =
+                along_rows_ ? corner_weights(at, w.across) : corner_weights(w.across, at);
+            for (std::size_t k = 0; k < 4; ++k) {
+                if (derivatives[k] != nullptr) derivatives[k][row + channel] = -weight[k] / slope * by_distance;
+            }
         }
+        return w.weight * std::copysign(root, distance);
     }
-
-  private:
-    static constexpr double kFarthest = 0.5; ///< texels: no crossing pulls more
 
     struct Place {
         std::size_t channel;
         double at;
     };
     /// The crossing in the same direction that is nearest; else the channel that decides at the outline's.
-    [[nodiscard]] Place responsible(const LineValues& v, const std::array<double, 3>& from,
+    [[nodiscard]] Place responsible(const Wanted& w, const LineValues& v, const std::array<double, 3>& from,
                                     const std::array<double, 3>& to) const {
         const TextureCrossings found = texture_crossings(rule_, v, low_, high_);
-        Place best{3, at_};
+        Place best{3, w.at};
         bool above = found.above_first;
         for (std::uint32_t k = 0; k < found.count; ++k) {
             above = !above;
             const double at = static_cast<double>(found.at[k]);
-            if (above == enters_ && (best.channel == 3 || std::fabs(at - at_) < std::fabs(best.at - at_)))
+            if (above == w.enters && (best.channel == 3 || std::fabs(at - w.at) < std::fabs(best.at - w.at)))
                 best = {found.channel[k], at};
         }
         if (best.channel != 3) return best;
         std::array<std::size_t, 3> order{0, 1, 2};
-        const auto value = [&](std::size_t c) { return from[c] + (to[c] - from[c]) * at_; };
+        const auto value = [&](std::size_t c) { return from[c] + (to[c] - from[c]) * w.at; };
         std::stable_sort(order.begin(), order.begin() + channels_,
                          [&](std::size_t a, std::size_t b) { return value(a) < value(b); });
         const std::size_t deciding = rule_ == BilevelRule::Single || rule_ == BilevelRule::Min ? 0 : 1;
-        return {order[deciding], at_};
+        return {order[deciding], w.at};
     }
 
     BilevelRule rule_;
     std::uint32_t channels_;
     bool along_rows_;
     float low_, high_;
-    double across_, at_;
-    bool enters_;
+    std::vector<Wanted> wanted_;
 };
 
 /// Remembers the best rounded values, and ends the fit when they get worse.
@@ -282,23 +312,17 @@ void fit_intersections_and_angles(const Solver& solver, const ThresholdCells& ce
 void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps,
                  FitTrace& trace) {
     Unknowns unknowns(cells, values);
-    // Absolute values beyond the corner of the loss: what counts is area, not its square.
-    const ResidualLoss single{budget::kFitExactTo, 1}, crowded{budget::kFitExactTo, budget::kFitCrowdedWeight};
-    Problem<CrossingResidual> problem(unknowns, {single, crowded});
+    Problem<CrossingResiduals> problem(unknowns);
     for (const Cell& c : cells.cells()) {
         const CellTexels corners = cells.corners(c);
         // At the border two corners are one texel: the same block twice is not allowed, and half cells are flat there.
         if (corners[0] == corners[1] || corners[0] == corners[2]) continue;
+        CrossingResiduals residuals(cells, c);
+        if (residuals.size() == 0) continue;
         std::array<std::uint32_t, 4> blocks{};
         std::ranges::transform(corners, blocks.begin(), [&](std::uint32_t texel) { return unknowns.block(texel); });
-        for (const CellLine& line : cells.lines(c)) {
-            bool above = line.above_first;
-            for (const float at : cells.crossings(line)) {
-                above = !above;
-                problem.add({cells.rule(), c, static_cast<double>(line.across), static_cast<double>(at), above}, blocks,
-                            line.crossings > 1 ? 1 : 0);
-            }
-        }
+        const std::uint32_t values = residuals.size();
+        problem.add(std::move(residuals), blocks, 0, values);
     }
     Watch watch(cells, unknowns, values, trace);
     LeastSquaresOptions options = fit_options(steps);

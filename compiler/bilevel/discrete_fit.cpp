@@ -2,6 +2,8 @@
 #include "compiler/bilevel/discrete_fit.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "compiler/error_budget.h"
 
@@ -18,6 +20,15 @@ class ByteFit {
             number_[t] = count_++;
         bytes_.resize(std::size_t{count_} * cells.channels());
         if (greys_ == MidGreys::Avoid) leave_greys();
+        for (const Cell& c : cells.cells())
+            areas_.push_back(cells.wrong_area_in(values, c));
+    }
+
+    [[nodiscard]] double wrong_area() const {
+        double sum = 0;
+        for (const double area : areas_)
+            sum += area;
+        return sum;
     }
 
     /// Whether any byte is left that may change.
@@ -32,6 +43,7 @@ class ByteFit {
 
     /// The same of two bytes at a time, by one step each, in both directions.
     bool sweep_pairs() {
+        steps_.resize(bytes_.size());
         bool busy = false;
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < cells_.channels(); ++c)
@@ -66,20 +78,29 @@ class ByteFit {
         return static_cast<std::uint8_t>(to);
     }
 
+    [[nodiscard]] double area_in(std::uint32_t cell) const {
+        return cells_.wrong_area_in(values_, cells_.cells()[cell]);
+    }
+
     /// Goes on in the direction as long as it helps.
-    bool descend(std::uint32_t texel, std::uint8_t& v, int by, double& least) {
+    bool descend(const CellsAround& around, std::uint8_t& v, int by, double& least) {
         bool any = false;
         for (;;) {
             const std::uint8_t before = v;
             v = moved(v, by);
             if (v == before) return any;
             ++tried;
-            const double area = cells_.wrong_area_around(values_, texel);
-            if (!(area < least - budget::kWorthAByte)) {
+            std::array<double, 4> area;
+            double sum = 0;
+            for (std::size_t k = 0; k < around.size(); ++k)
+                sum += area[k] = area_in(around[k]);
+            if (!(sum < least - budget::kWorthAByte)) {
                 v = before;
                 return any;
             }
-            least = area, any = true;
+            least = sum, any = true;
+            for (std::size_t k = 0; k < around.size(); ++k)
+                areas_[around[k]] = area[k];
         }
     }
 
@@ -87,9 +108,12 @@ class ByteFit {
     bool visit(std::uint32_t texel, std::uint32_t channel) {
         Byte& byte = bytes_[std::size_t{number_[texel]} * cells_.channels() + channel];
         if (!byte.open) return false;
-        double least = cells_.wrong_area_around(values_, texel);
+        const CellsAround around = cells_.around(texel);
+        double least = 0;
+        for (const std::uint32_t c : around)
+            least += areas_[c];
         std::uint8_t& v = values_[std::size_t{texel} * cells_.channels() + channel];
-        if (least > 0 && (descend(texel, v, byte.step, least) || descend(texel, v, -byte.step, least))) {
+        if (least > 0 && (descend(around, v, byte.step, least) || descend(around, v, -byte.step, least))) {
             byte.step = static_cast<std::int16_t>(std::min(kLargestStep, 2 * byte.step));
             open_around(texel, channel);
             return true;
@@ -102,6 +126,22 @@ class ByteFit {
     struct Neighbour {
         int i, j;
     };
+    /// Of a byte.
+    struct Place {
+        std::uint32_t texel, channel;
+        std::size_t byte, value; ///< in bytes_ and steps_; in values_
+        CellsAround cells;
+    };
+    struct Steps {
+        std::array<std::array<double, 4>, 2> area{}; ///< down, up; in the cells around
+        bool known = false;
+    };
+
+    [[nodiscard]] Place place(std::uint32_t texel, std::uint32_t channel) const {
+        const std::uint32_t n = cells_.channels();
+        return {texel, channel, std::size_t{number_[texel]} * n + channel, std::size_t{texel} * n + channel,
+                cells_.around(texel)};
+    }
 
     bool visit_pairs(std::uint32_t texel, std::uint32_t channel) {
         const std::uint32_t n = cells_.channels(), w = cells_.width(), i = texel % w, j = texel / w;
@@ -109,38 +149,77 @@ class ByteFit {
         if (!byte.pairs_open) return false;
         byte.pairs_open = false;
         bool any = false;
+        const Place here = place(texel, channel);
         for (std::uint32_t other = channel + 1; other < n; ++other)
-            any = descend_pair(texel, channel, texel, other) || any;
+            any = descend_pair(here, place(texel, other)) || any;
         for (const Neighbour d : {Neighbour{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) {
             const std::int64_t x = std::int64_t{i} + d.i, y = std::int64_t{j} + d.j;
             if (x < 0 || x >= w || y >= cells_.height()) continue;
             const auto other = static_cast<std::uint32_t>(y * w + x);
-            if (number_[other] != kNone) any = descend_pair(texel, channel, other, channel) || any;
+            if (number_[other] != kNone) any = descend_pair(here, place(other, channel)) || any;
         }
         return any;
     }
 
-    bool descend_pair(std::uint32_t a, std::uint32_t channel_a, std::uint32_t b, std::uint32_t channel_b) {
-        const std::uint32_t n = cells_.channels();
-        std::uint8_t &va = values_[std::size_t{a} * n + channel_a], &vb = values_[std::size_t{b} * n + channel_b];
-        double least = cells_.wrong_area_around(values_, a, b);
-        if (!(least > 0)) return false;
-        bool any = false;
-        for (const int by_a : {1, -1}) {
-            for (const int by_b : {1, -1}) {
-                const std::uint8_t before_a = va, before_b = vb;
-                va = moved(va, by_a), vb = moved(vb, by_b);
-                ++tried;
-                const double area = cells_.wrong_area_around(values_, a, b);
-                if (area < least - budget::kWorthAByte) {
-                    least = area, any = true;
-                    open_around(a, channel_a), open_around(b, channel_b);
-                } else {
-                    va = before_a, vb = before_b;
-                }
-            }
+    /// The area of a cell after a byte's steps down and up by one.
+    const Steps& steps_of(const Place& p) {
+        Steps& out = steps_[p.byte];
+        if (out.known) return out;
+        std::uint8_t& v = values_[p.value];
+        const std::uint8_t before = v;
+        for (std::size_t up = 0; up < 2; ++up) {
+            v = moved(before, up == 0 ? -1 : 1);
+            for (std::size_t k = 0; k < p.cells.size(); ++k)
+                out.area[up][k] = v == before ? areas_[p.cells[k]] : area_in(p.cells[k]);
+            tried += v == before ? 0 : 1;
         }
+        v = before, out.known = true;
+        return out;
+    }
+
+    /// Cells with only one of the two bytes change as they do when it alone changes. If the others can't win back what
+    /// that costs, nothing is tried.
+    bool descend_pair(const Place& a, const Place& b) {
+        bool any = false;
+        for (std::size_t direction = 0; direction < 4; ++direction)
+            any = step_both(a, direction >> 1, b, direction & 1) || any;
         return any;
+    }
+
+    bool step_both(const Place& a, std::size_t up_a, const Place& b, std::size_t up_b) {
+        std::array<std::pair<std::uint32_t, double>, 8> after;
+        std::size_t count = 0;
+        double change = 0; // of the cells with one
+        const auto alone = [&](const Place& p, const Place& other, std::size_t up) {
+            const Steps& steps = steps_of(p);
+            for (std::size_t k = 0; k < p.cells.size(); ++k) {
+                if (std::ranges::find(other.cells, p.cells[k]) != other.cells.end()) continue;
+                after[count++] = {p.cells[k], steps.area[up][k]};
+                change += steps.area[up][k] - areas_[p.cells[k]];
+            }
+        };
+        alone(a, b, up_a), alone(b, a, up_b);
+        double shared = 0;
+        for (const std::uint32_t c : a.cells)
+            shared += std::ranges::find(b.cells, c) != b.cells.end() ? areas_[c] : 0;
+        if (!(change - shared < -budget::kWorthAByte)) return false;
+        std::uint8_t &va = values_[a.value], &vb = values_[b.value];
+        const std::uint8_t before_a = va, before_b = vb;
+        va = moved(va, up_a == 0 ? -1 : 1), vb = moved(vb, up_b == 0 ? -1 : 1);
+        ++tried;
+        for (const std::uint32_t c : a.cells) {
+            if (std::ranges::find(b.cells, c) == b.cells.end()) continue;
+            after[count++] = {c, area_in(c)};
+            change += after[count - 1].second - areas_[c];
+        }
+        if (!(change < -budget::kWorthAByte)) {
+            va = before_a, vb = before_b;
+            return false;
+        }
+        for (std::size_t k = 0; k < count; ++k)
+            areas_[after[k].first] = after[k].second;
+        open_around(a.texel, a.channel), open_around(b.texel, b.channel);
+        return true;
     }
 
     void open_around(std::uint32_t texel, std::uint32_t channel) {
@@ -151,6 +230,7 @@ class ByteFit {
                 if (n == kNone) continue;
                 for (std::uint32_t c = 0; c < cells_.channels(); ++c) {
                     Byte& other = bytes_[std::size_t{n} * cells_.channels() + c];
+                    if (!steps_.empty()) steps_[std::size_t{n} * cells_.channels() + c].known = false;
                     other.open = other.pairs_open = true;
                     if (y * w + x != texel || c != channel) other.step = std::max<std::int16_t>(other.step, 2);
                 }
@@ -164,6 +244,8 @@ class ByteFit {
     std::vector<std::uint32_t> number_;
     std::uint32_t count_ = 0;
     std::vector<Byte> bytes_;
+    std::vector<Steps> steps_;  ///< once pairs are tried
+    std::vector<double> areas_; ///< of the cells, with the values as they are
 };
 
 } // namespace
@@ -175,7 +257,7 @@ std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& 
     for (int k = 0, pairs = 0; k < sweeps.most && busy; ++k) {
         busy = fit.sweep();
         if (!busy && pairs < sweeps.pairs) ++pairs, busy = fit.sweep_pairs();
-        trace.push_back(cells.wrong_area(values));
+        trace.push_back(fit.wrong_area());
     }
     return fit.tried;
 }

@@ -83,21 +83,22 @@ template <BilevelRule Rule> inline TextureCrossings crossings_of(const LineValue
     return out;
 }
 
-template <BilevelRule Rule>
-double wrong_area_of(const ThresholdCells& cells, std::span<const std::uint8_t> values, const Cell& c) {
-    const CellTexels corners = cells.corners(c);
-    float sum = 0;
-    for (const CellLine& line : cells.lines(c)) {
-        const LineValues v = line_values<Rule>(values, corners, c.along_rows, line.across);
-        const TextureCrossings t = crossings_of<Rule>(v, c.low, c.high);
-        const std::span<const float> outline = cells.crossings(line);
-        if (t.count == 1 && outline.size() == 1 && t.above_first == line.above_first) // most
-            sum += std::fabs(std::clamp(t.at[0], c.low, c.high) - outline[0]);
-        else
-            sum +=
-                disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, outline, c.low, c.high);
-    }
-    return static_cast<double>(sum) * cells.line_width();
+/// Parts of four lines.
+struct Spans {
+    Lanes from, to; ///< to < from: nothing
+
+    [[nodiscard]] Lanes length() const { return larger(to - from, Lanes{}); }
+};
+
+Spans both(const Spans& a, const Spans& b) { return {larger(a.from, b.from), smaller(a.to, b.to)}; }
+
+/// Where a channel is above one half, of lines from low to high; with Max where it isn't.
+template <BilevelRule Rule> Spans channel_spans(Lanes from, Lanes to, float low, float high) {
+    const Lanes slope = to - from, begin = from + slope * low, end = from + slope * high;
+    const Lanes at = smaller(larger((0.5F - from) / slope, low - Lanes{}), high - Lanes{});
+    const auto in = [](Lanes v) { return Rule == BilevelRule::Max ? v <= 0.5F : v > 0.5F; };
+    const auto first = in(begin), last = in(end);
+    return {first ? low - Lanes{} : (last ? at : high - Lanes{}), last ? high - Lanes{} : (first ? at : low - Lanes{})};
 }
 
 } // namespace
@@ -113,6 +114,52 @@ TextureCrossings texture_crossings(BilevelRule rule, const LineValues& v, float 
     default:
         return crossings_of<BilevelRule::Single>(v, low, high);
     }
+}
+
+template <BilevelRule Rule>
+double ThresholdCells::wrong_area_of(std::span<const std::uint8_t> values, const Cell& c) const {
+    constexpr std::uint32_t n = kChannels<Rule>;
+    const CellTexels corners = this->corners(c);
+    std::array<float, n> from0, from1, to0, to1; // at a channel's line 0 and line 1
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const auto value = [&](std::size_t corner) {
+            return static_cast<float>(values[std::size_t{corners[corner]} * n + k]) * (1.0F / 255);
+        };
+        from0[k] = value(0), from1[k] = value(c.along_rows ? 2 : 1);
+        to0[k] = value(c.along_rows ? 1 : 2), to1[k] = value(3);
+    }
+    Lanes sum{};
+    const Block* const end = blocks_.data() + c.first_block + c.lines / kLanes;
+    for (const Block* b = blocks_.data() + c.first_block; b != end; ++b) {
+        std::array<Spans, n> in;
+        for (std::uint32_t k = 0; k < n; ++k)
+            in[k] = channel_spans<Rule>(from0[k] + (from1[k] - from0[k]) * b->across,
+                                        to0[k] + (to1[k] - to0[k]) * b->across, c.low, c.high);
+        const Spans outline{b->from, b->to};
+        Lanes shown, shared; // of the texture's; of it and the outline's
+        if constexpr (Rule == BilevelRule::Median) {
+            // Two of three: the sum over pairs counts what all three have three times.
+            const Spans ab = both(in[0], in[1]), bc = both(in[1], in[2]), ca = both(in[2], in[0]),
+                        abc = both(ab, in[2]);
+            shown = ab.length() + bc.length() + ca.length() - 2 * abc.length();
+            shared = both(ab, outline).length() + both(bc, outline).length() + both(ca, outline).length() -
+                     2 * both(abc, outline).length();
+        } else {
+            Spans all = in[0];
+            if constexpr (n == 2) all = both(in[0], in[1]);
+            shown = all.length(), shared = both(all, outline).length();
+        }
+        sum += (shown + (b->to - b->from) - 2 * shared) * b->weight;
+    }
+    float total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    for (const std::uint32_t k : std::span(thin_).subspan(c.first_thin, c.thin)) {
+        const CellLine& line = lines_[k];
+        const TextureCrossings t =
+            crossings_of<Rule>(line_values<Rule>(values, corners, c.along_rows, line.across), c.low, c.high);
+        total += disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, crossings(line), c.low,
+                              c.high);
+    }
+    return static_cast<double>(total) * line_width();
 }
 
 ThresholdCells::ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height,
@@ -194,6 +241,26 @@ void ThresholdCells::scan(Cell& c, const ScannedOutline& scanned) {
         lines_.push_back(line);
     }
     c.lines = static_cast<std::uint32_t>(lines_.size()) - c.first_line;
+    add_blocks(c);
+}
+
+void ThresholdCells::add_blocks(Cell& c) {
+    c.first_block = static_cast<std::uint32_t>(blocks_.size());
+    c.first_thin = static_cast<std::uint32_t>(thin_.size());
+    const bool keeps_below = rule_ == BilevelRule::Max;
+    for (std::uint32_t k = c.first_line; k < c.first_line + c.lines; k += kLanes) {
+        Block b;
+        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+            const CellLine& line = lines_[k + lane];
+            const float at = line.crossings == 0 ? c.high : crossings_[line.first];
+            const bool first = line.above_first != keeps_below;
+            b.across[lane] = line.across, b.from[lane] = first ? c.low : at, b.to[lane] = first ? at : c.high;
+            b.weight[lane] = line.crossings > 1 ? 0.0F : 1.0F;
+            if (line.crossings > 1) thin_.push_back(k + lane);
+        }
+        blocks_.push_back(b);
+    }
+    c.thin = static_cast<std::uint32_t>(thin_.size()) - c.first_thin;
 }
 
 CellTexels ThresholdCells::corners(const Cell& c) const {
@@ -205,13 +272,13 @@ CellTexels ThresholdCells::corners(const Cell& c) const {
 double ThresholdCells::wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const {
     switch (rule_) {
     case BilevelRule::Min:
-        return wrong_area_of<BilevelRule::Min>(*this, values, c);
+        return wrong_area_of<BilevelRule::Min>(values, c);
     case BilevelRule::Max:
-        return wrong_area_of<BilevelRule::Max>(*this, values, c);
+        return wrong_area_of<BilevelRule::Max>(values, c);
     case BilevelRule::Median:
-        return wrong_area_of<BilevelRule::Median>(*this, values, c);
+        return wrong_area_of<BilevelRule::Median>(values, c);
     default:
-        return wrong_area_of<BilevelRule::Single>(*this, values, c);
+        return wrong_area_of<BilevelRule::Single>(values, c);
     }
 }
 
@@ -219,27 +286,6 @@ double ThresholdCells::wrong_area(std::span<const std::uint8_t> values) const {
     double sum = 0;
     for (const Cell& c : cells_)
         sum += wrong_area_in(values, c);
-    return sum;
-}
-
-double ThresholdCells::wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel) const {
-    const std::size_t corner = std::size_t{texel / width_} * (width_ + 1) + texel % width_;
-    double sum = 0;
-    for (const std::size_t k : {corner, corner + 1, corner + width_ + 1, corner + width_ + 2})
-        sum += wrong_area_in(values, cells_[cell_at_[k]]);
-    return sum;
-}
-
-double ThresholdCells::wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel,
-                                         std::uint32_t other) const {
-    const std::uint32_t i = texel % width_, j = texel / width_, oi = other % width_, oj = other / width_;
-    double sum = wrong_area_around(values, texel);
-    for (std::uint32_t row = oj; row <= oj + 1; ++row) {
-        for (std::uint32_t column = oi; column <= oi + 1; ++column) {
-            const bool shared = column >= i && column <= i + 1 && row >= j && row <= j + 1;
-            if (!shared) sum += wrong_area_in(values, cells_[cell_at_[std::size_t{row} * (width_ + 1) + column]]);
-        }
-    }
     return sum;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compiler/bilevel/scan_lines.h"
+#include "compiler/lanes.h"
 #include "formats/bilevel.h"
 
 namespace fetexc {
@@ -30,6 +31,8 @@ struct Cell {
     bool along_rows = true;
     float low = 0, high = 1; ///< of the lines: 1/2 where the cell is half a cell
     std::uint32_t first_line = 0, lines = 0;
+    std::uint32_t first_block = 0;          ///< of lines, four at a time
+    std::uint32_t first_thin = 0, thin = 0; ///< lines that the outline crosses twice or more
     bool holds_outline = false;
 };
 
@@ -40,6 +43,9 @@ using CellTexels = std::array<std::uint32_t, 4>;
 struct LineValues {
     std::array<float, 3> from{}, to{};
 };
+
+/// Cells around a texel's centre. Those of a cell's texels are all there.
+using CellsAround = std::array<std::uint32_t, 4>;
 
 class ThresholdCells {
   public:
@@ -62,18 +68,22 @@ class ThresholdCells {
     [[nodiscard]] CellTexels corners(const Cell& c) const;
     [[nodiscard]] double line_width() const { return 1.0 / per_texel_; }
 
+    [[nodiscard]] CellsAround around(std::uint32_t texel) const {
+        const std::size_t k = std::size_t{texel / width_} * (width_ + 1) + texel % width_;
+        return {cell_at_[k], cell_at_[k + 1], cell_at_[k + width_ + 1], cell_at_[k + width_ + 2]};
+    }
+
     /// Square texels on which the texture and the outline disagree. values: channels() bytes a texel of the texture.
     [[nodiscard]] double wrong_area(std::span<const std::uint8_t> values) const;
-    /// The same in the cells around a texel's centre.
-    [[nodiscard]] double wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel) const;
-    /// The same around two texels, one of the cells' and any within one column and row of it.
-    [[nodiscard]] double wrong_area_around(std::span<const std::uint8_t> values, std::uint32_t texel,
-                                           std::uint32_t other) const;
+    /// The same in a cell.
     [[nodiscard]] double wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const;
 
   private:
     void choose_texels(const std::vector<std::uint32_t>& across_rows, const std::vector<std::uint32_t>& across_columns);
     void scan(Cell& c, const ScannedOutline& scanned);
+    void add_blocks(Cell& c);
+    template <fetex::BilevelRule Rule>
+    [[nodiscard]] double wrong_area_of(std::span<const std::uint8_t> values, const Cell& c) const;
 
     std::uint32_t width_, height_, per_texel_;
     fetex::BilevelRule rule_;
@@ -83,6 +93,12 @@ class ThresholdCells {
     std::vector<std::uint32_t> cell_at_; ///< kNone: of no such texel
     std::vector<CellLine> lines_;
     std::vector<float> crossings_;
+    /// Four lines. Those that the outline crosses twice or more have no weight.
+    struct Block {
+        Lanes across, from, to, weight; ///< from … to: above; with Max, below
+    };
+    std::vector<Block> blocks_;
+    std::vector<std::uint32_t> thin_; ///< in lines_
 };
 
 /// Where the texture crosses one half on a line, in order, as the rule has it.
