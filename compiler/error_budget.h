@@ -323,6 +323,10 @@ inline constexpr int kFitPaperSteps = 2;
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;
 
+/// Square texels of wrong area that a part of the silhouette is worth which wouldn't show at all: a quarter of a texel's
+/// side each way, about what a spot shows that one byte makes.
+inline constexpr double kWorthAPart = 1.0 / 16;
+
 /// Parts of a pixel: nine pixels that a straight edge covers otherwise than they say, by more in the root mean square,
 /// hold a corner or several edges. A corner of a right angle in the middle misfits by 0.1 or more; roundings of 8 bits by
 /// 0.002, an edge round with a radius of five pixels by 0.02.

@@ -31,7 +31,8 @@ struct BilevelFit {
     bool paper_start = false; ///< the paper's equations were the better start
     FitTrace trace;           ///< part of the canvas that is wrong, after each step (contour, then bytes)
     std::uint64_t contour_steps = 0, bytes_tried = 0;
-    double wrong = 0; ///< part of the canvas, along finer lines
+    std::uint64_t parts_mended = 0; ///< bytes changed so that fewer parts are lost or invented
+    double wrong = 0;               ///< part of the canvas, along finer lines
 };
 struct BilevelStats {
     std::vector<BilevelFit> fits; ///< the chosen one first

@@ -71,13 +71,6 @@ class ByteFit {
         }
     }
 
-    [[nodiscard]] std::uint8_t moved(std::uint8_t v, int by) const {
-        int to = std::clamp(v + by, 0, 255);
-        if (greys_ == MidGreys::Avoid && to >= kFirstGrey && to <= kLastGrey)
-            to = by > 0 ? kLastGrey + 1 : kFirstGrey - 1;
-        return static_cast<std::uint8_t>(to);
-    }
-
     [[nodiscard]] double area_in(std::uint32_t cell) const {
         return cells_.wrong_area_in(values_, cells_.cells()[cell]);
     }
@@ -87,7 +80,7 @@ class ByteFit {
         bool any = false;
         for (;;) {
             const std::uint8_t before = v;
-            v = moved(v, by);
+            v = moved(v, by, greys_);
             if (v == before) return any;
             ++tried;
             std::array<double, 4> area;
@@ -168,7 +161,7 @@ class ByteFit {
         std::uint8_t& v = values_[p.value];
         const std::uint8_t before = v;
         for (std::size_t up = 0; up < 2; ++up) {
-            v = moved(before, up == 0 ? -1 : 1);
+            v = moved(before, up == 0 ? -1 : 1, greys_);
             for (std::size_t k = 0; k < p.cells.size(); ++k)
                 out.area[up][k] = v == before ? areas_[p.cells[k]] : area_in(p.cells[k]);
             tried += v == before ? 0 : 1;
@@ -205,7 +198,7 @@ class ByteFit {
         if (!(change - shared < -budget::kWorthAByte)) return false;
         std::uint8_t &va = values_[a.value], &vb = values_[b.value];
         const std::uint8_t before_a = va, before_b = vb;
-        va = moved(va, up_a == 0 ? -1 : 1), vb = moved(vb, up_b == 0 ? -1 : 1);
+        va = moved(va, up_a == 0 ? -1 : 1, greys_), vb = moved(vb, up_b == 0 ? -1 : 1, greys_);
         ++tried;
         for (const std::uint32_t c : a.cells) {
             if (std::ranges::find(b.cells, c) == b.cells.end()) continue;
@@ -249,6 +242,12 @@ class ByteFit {
 };
 
 } // namespace
+
+std::uint8_t moved(std::uint8_t v, int by, MidGreys greys) {
+    int to = std::clamp(v + by, 0, 255);
+    if (greys == MidGreys::Avoid && to >= kFirstGrey && to <= kLastGrey) to = by > 0 ? kLastGrey + 1 : kFirstGrey - 1;
+    return static_cast<std::uint8_t>(to);
+}
 
 std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& values, MidGreys greys,
                         ByteSweeps sweeps, FitTrace& trace) {

@@ -13,6 +13,9 @@ namespace fetexc {
 /// Values between 112 and 143 in level 0.
 enum class MidGreys : std::uint8_t { Allow, Avoid };
 
+/// v + by within 0 … 255; what falls on a grey to be avoided goes on to the next one that isn't.
+std::uint8_t moved(std::uint8_t v, int by, MidGreys greys);
+
 /// How long.
 struct ByteSweeps {
     int most = 60; ///< sweeps in all

@@ -12,7 +12,8 @@ ScanLines::ScanLines(std::span<const OutlineSegment> outline, std::uint32_t acro
     const std::int64_t lines = std::int64_t{across} * per_texel;
     // Half-open: a line through a point that two segments share crosses one of them.
     const auto each = [&](const auto& visit) {
-        for (const OutlineSegment& s : outline) {
+        for (std::uint32_t k = 0; k < outline.size(); ++k) {
+            const OutlineSegment& s = outline[k];
             const double u0 = level ? s.y0 : s.x0, u1 = level ? s.y1 : s.x1;
             const double v0 = level ? s.x0 : s.y0, v1 = level ? s.x1 : s.y1;
             const auto line_after = [&](double u) { return static_cast<std::int64_t>(std::ceil(u * per_texel - 0.5)); };
@@ -22,7 +23,7 @@ ScanLines::ScanLines(std::span<const OutlineSegment> outline, std::uint32_t acro
                 const double u = position(static_cast<std::uint32_t>(n));
                 // Above is on the left: right of what runs down, below what runs left.
                 visit(static_cast<std::size_t>(n),
-                      Crossing{v0 + (v1 - v0) * ((u - u0) / (u1 - u0)), (v1 - v0) / (u1 - u0), (u1 > u0) == level});
+                      Crossing{v0 + (v1 - v0) * ((u - u0) / (u1 - u0)), (v1 - v0) / (u1 - u0), (u1 > u0) == level, k});
             }
         }
     };

@@ -11,9 +11,10 @@
 namespace fetexc {
 
 struct Crossing {
-    double at = 0;       ///< along the line, texels
-    double lean = 0;     ///< of the outline: change of `at` per texel across the lines
-    bool enters = false; ///< above follows it
+    double at = 0;             ///< along the line, texels
+    double lean = 0;           ///< of the outline: change of `at` per texel across the lines
+    bool enters = false;       ///< above follows it
+    std::uint32_t segment = 0; ///< of the outline
 };
 
 /// Of one axis: `per_texel` lines a texel, evenly spread, line n at (n + 1/2) / per_texel texels.
