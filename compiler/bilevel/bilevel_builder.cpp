@@ -51,16 +51,24 @@ Fitted fit_rule(const Solver& solver, const Silhouette& silhouette, GridSize siz
     out.thin_cells = static_cast<std::uint64_t>(std::ranges::count_if(cells.cells(), [&](const Cell& c) {
         return std::ranges::any_of(cells.lines(c), [](const CellLine& l) { return l.crossings > 1; });
     }));
-    out.values = seed_values(cells, scanned, outline, reach, window);
+    std::vector<std::vector<std::uint8_t>> starts{seed_values(cells, scanned, outline, reach, window)};
     if (rule == BilevelRule::Single) {
-        std::vector<std::uint8_t> paper = out.values;
-        fit_intersections_and_angles(solver, cells, outline, paper);
-        out.fit.paper_start = cells.wrong_area(paper) < cells.wrong_area(out.values);
-        if (out.fit.paper_start) out.values = std::move(paper);
+        starts.push_back(starts[0]);
+        starts.push_back(seed_values(cells, scanned, outline, budget::kSeedReachOfSeveral, window));
+        fit_intersections_and_angles(solver, cells, outline, starts[1]);
     }
-    fit_contour(solver, cells, out.values, kContourSteps, out.fit.trace);
-    out.fit.contour_steps = out.fit.trace.size();
-    out.fit.bytes_tried = fit_bytes(cells, out.values, greys, {kSweeps, 0}, out.fit.trace);
+    // Each ends in another of many least areas.
+    double least = INFINITY;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+        FitTrace trace;
+        fit_contour(solver, cells, starts[k], kContourSteps, trace);
+        const std::uint64_t steps = trace.size();
+        out.fit.bytes_tried += fit_bytes(cells, starts[k], greys, {kSweeps, 0}, trace);
+        const double area = cells.wrong_area(starts[k]);
+        if (!(area < least)) continue;
+        least = area, out.values = std::move(starts[k]);
+        out.fit.trace = std::move(trace), out.fit.contour_steps = steps, out.fit.paper_start = k == 1;
+    }
     const ScannedOutline finer(silhouette, outline, size.width, size.height, effort.polish_lines);
     const ThresholdCells fine(finer, size.width, size.height, rule);
     out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, effort.pair_sweeps}, out.fit.trace);

@@ -28,7 +28,7 @@ struct BilevelFit {
     std::uint64_t cells = 0, texels_fitted = 0; ///< with some of the outline; at their corners
     std::uint64_t thin_cells =
         0; ///< of the cells: with a line that the outline crosses twice or more, so thinner than a texel
-    bool paper_start = false; ///< the paper's equations were the better start
+    bool paper_start = false; ///< the fit began with the paper's equations, which ended better
     FitTrace trace;           ///< part of the canvas that is wrong, after each step (contour, then bytes)
     std::uint64_t contour_steps = 0, bytes_tried = 0;
     std::uint64_t parts_mended = 0; ///< bytes changed so that fewer parts are lost or invented

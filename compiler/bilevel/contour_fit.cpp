@@ -209,20 +209,18 @@ struct LinearResidual {
 /// A problem with its residuals, all of one kind, which has `evaluate` as LeastSquares.
 template <class Kind> class Problem {
   public:
-    /// losses: of all residuals.
-    explicit Problem(Unknowns& unknowns, std::vector<ResidualLoss> losses = {ResidualLoss{}})
-        : stated_(unknowns.problem()), losses_(std::move(losses)) {}
+    explicit Problem(Unknowns& unknowns) : stated_(unknowns.problem()) {}
 
-    void add(Kind kind, std::span<const std::uint32_t> blocks, std::uint32_t loss = 0, std::uint32_t values = 1) {
+    void add(Kind kind, std::span<const std::uint32_t> blocks, std::uint32_t values = 1) {
         const auto first = static_cast<std::uint32_t>(blocks_.size()),
                    count = static_cast<std::uint32_t>(blocks.size());
-        residuals_.push_back({first, count, loss, values});
+        residuals_.push_back({first, count, values});
         blocks_.insert(blocks_.end(), blocks.begin(), blocks.end());
         kinds_.push_back(std::move(kind));
     }
 
     void solve(const Solver& solver, const LeastSquaresOptions& options) {
-        stated_.blocks = blocks_, stated_.residuals = residuals_, stated_.losses = losses_;
+        stated_.blocks = blocks_, stated_.residuals = residuals_;
         stated_.evaluate = [this](std::uint32_t k, const double* const* blocks, double* values, double** derivatives) {
             kinds_[k].evaluate(blocks, values, derivatives);
         };
@@ -231,7 +229,6 @@ template <class Kind> class Problem {
 
   private:
     LeastSquares stated_;
-    std::vector<ResidualLoss> losses_;
     std::vector<Residual> residuals_;
     std::vector<std::uint32_t> blocks_;
     std::vector<Kind> kinds_;
@@ -321,8 +318,8 @@ void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<
         if (residuals.size() == 0) continue;
         std::array<std::uint32_t, 4> blocks{};
         std::ranges::transform(corners, blocks.begin(), [&](std::uint32_t texel) { return unknowns.block(texel); });
-        const std::uint32_t values = residuals.size();
-        problem.add(std::move(residuals), blocks, 0, values);
+        const std::uint32_t numbers = residuals.size();
+        problem.add(std::move(residuals), blocks, numbers);
     }
     Watch watch(cells, unknowns, values, trace);
     LeastSquaresOptions options = fit_options(steps);

@@ -12,7 +12,6 @@ namespace {
 using fetexc::LeastSquares;
 using fetexc::LeastSquaresOptions;
 using fetexc::Residual;
-using fetexc::ResidualLoss;
 
 /// A residual as Ceres wants it.
 class Cost final : public ceres::CostFunction {
@@ -31,25 +30,6 @@ class Cost final : public ceres::CostFunction {
   private:
     const LeastSquares& problem_;
     std::uint32_t residual_;
-};
-
-/// Absolute values beyond the loss's corner. Null: squares.
-class Loss {
-  public:
-    explicit Loss(const ResidualLoss& loss)
-        : huber_(loss.exact_to),
-          scaled_(std::isinf(loss.exact_to) ? nullptr : &huber_, loss.weight, ceres::DO_NOT_TAKE_OWNERSHIP),
-          of_squares_(std::isinf(loss.exact_to)), weighted_(loss.weight != 1) {}
-
-    ceres::LossFunction* get() {
-        if (weighted_) return &scaled_;
-        return of_squares_ ? nullptr : &huber_;
-    }
-
-  private:
-    ceres::HuberLoss huber_;
-    ceres::ScaledLoss scaled_;
-    bool of_squares_, weighted_;
 };
 
 class GoesOn final : public ceres::IterationCallback {
@@ -93,8 +73,7 @@ void least_squares(const LeastSquares& stated, const LeastSquaresOptions& option
     if (stated.residuals.empty()) return;
     ceres::Problem::Options ownership;
     ownership.disable_all_safety_checks = true;
-    ownership.cost_function_ownership = ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    std::deque<Loss> losses(stated.losses.begin(), stated.losses.end());
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     std::deque<Cost> costs;
     ceres::Problem problem(ownership);
     std::vector<double*> blocks;
@@ -103,7 +82,7 @@ void least_squares(const LeastSquares& stated, const LeastSquaresOptions& option
         blocks.clear();
         for (const std::uint32_t block : stated.blocks.subspan(residual.first, residual.blocks))
             blocks.push_back(stated.unknowns.data() + std::size_t{block} * stated.block_size);
-        problem.AddResidualBlock(&costs.emplace_back(stated, k), losses[residual.loss].get(), blocks);
+        problem.AddResidualBlock(&costs.emplace_back(stated, k), nullptr, blocks);
     }
     set_bounds(problem, stated);
     GoesOn watch(options);

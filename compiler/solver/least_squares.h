@@ -10,17 +10,10 @@
 
 namespace fetexc {
 
-/// What a residual of length r counts: weight·r²/2 up to r = exact_to, beyond weight·exact_to·(r − exact_to/2) (Huber).
-struct ResidualLoss {
-    double exact_to = INFINITY; ///< above 0
-    double weight = 1;          ///< above 0
-};
-
-/// Some numbers that depend on the same blocks of unknowns; more than one count by their length together.
+/// Some numbers that depend on the same blocks of unknowns.
 struct Residual {
     std::uint32_t first = 0;  ///< in LeastSquares::blocks
     std::uint32_t blocks = 0; ///< all different
-    std::uint32_t loss = 0;   ///< in LeastSquares::losses
     std::uint32_t values = 1; ///< numbers
 };
 
@@ -32,7 +25,6 @@ struct LeastSquares {
     double low = -INFINITY, high = INFINITY; ///< of every unknown
     std::span<const std::uint32_t> blocks;   ///< of all residuals
     std::span<const Residual> residuals;
-    std::span<const ResidualLoss> losses;
     /// Of a residual, from the unknowns of its blocks: the values, and their derivatives by each block's unknowns,
     /// value by value. No derivatives are wanted where `derivatives`, or a block's, is null.
     std::function<void(std::uint32_t residual, const double* const* blocks, double* values, double** derivatives)>
