@@ -64,8 +64,10 @@ struct BilevelPixel {
     double width = 0, height = 0;
 };
 
-/// The part of a pixel, 0…1, that is above, if the contour is straight in it: clamp(1/2 + (t − 1/2) / w, 0, 1) with
-/// w = |dt/dx|·width + |dt/dy|·height; exact for edges along an axis. w = 0: 1 if t > 1/2, else 0.
+/// The part of a pixel, 0…1, that is above, if the contour is straight in it: the exact area of a rectangle cut by a
+/// line. With a and b the greater and the lesser of |dt/dx|·width and |dt/dy|·height, and d = |t − 1/2|: what is on the
+/// side of the pixel's middle is 1/2 + d/a for d ≤ (a − b)/2, 1 − ((a + b)/2 − d)² / (2ab) beyond, 1 from (a + b)/2 on.
+/// a = 0: 1 if t > 1/2, else 0. Continuous, and monotone in t but for rounding.
 double bilevel_coverage(const BilevelValue& value, BilevelPixel pixel);
 
 /// The colour at a point, cut hard.

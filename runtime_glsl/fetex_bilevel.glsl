@@ -50,9 +50,9 @@
 #ifndef FETEX_BILEVEL_FILTERED
 #define FETEX_BILEVEL_FILTERED 0
 #endif
-// Change of a value over the pixel, along both axes of the screen.
-#ifndef FETEX_BILEVEL_FWIDTH
-#define FETEX_BILEVEL_FWIDTH(t) fwidth(t)
+// Change of a value along each side of the pixel.
+#ifndef FETEX_BILEVEL_DERIVATIVES
+#define FETEX_BILEVEL_DERIVATIVES(t) vec2(dFdx(t), dFdy(t))
 #endif
 // One fetch gets a channel of four texels. For three channels four fetches of a texel are not dearer.
 #ifndef FETEX_BILEVEL_GATHER
@@ -86,38 +86,39 @@ FETEX_UNIFORM(2) highp sampler2D fetexBilevelImage;
 
 ivec2 fetexBilevelSize() { return textureSize(fetexBilevelTexels, 0); }
 
+// Chosen: of the slopes along x and y those of the channel whose value the rule takes.
 #if FETEX_BILEVEL_RULE == 0
 float fetexBilevelCombine(FETEX_BILEVEL_VALUES v) { return v; }
-float fetexBilevelChosen(float slope, float v) { return slope; }
+vec2 fetexBilevelChosen(float x, float y, float v) { return vec2(x, y); }
 #elif FETEX_BILEVEL_RULE == 1
 float fetexBilevelCombine(vec2 v) { return min(v.x, v.y); }
-float fetexBilevelChosen(vec2 slope, vec2 v) { return v.y < v.x ? slope.y : slope.x; }
+vec2 fetexBilevelChosen(vec2 x, vec2 y, vec2 v) { return v.y < v.x ? vec2(x.y, y.y) : vec2(x.x, y.x); }
 #elif FETEX_BILEVEL_RULE == 2
 float fetexBilevelCombine(vec2 v) { return max(v.x, v.y); }
-float fetexBilevelChosen(vec2 slope, vec2 v) { return v.y > v.x ? slope.y : slope.x; }
+vec2 fetexBilevelChosen(vec2 x, vec2 y, vec2 v) { return v.y > v.x ? vec2(x.y, y.y) : vec2(x.x, y.x); }
 #else
 float fetexBilevelCombine(vec3 v) { return max(min(v.x, v.y), min(max(v.x, v.y), v.z)); }
-float fetexBilevelChosen(vec3 slope, vec3 v) {
+vec2 fetexBilevelChosen(vec3 x, vec3 y, vec3 v) {
     float t = fetexBilevelCombine(v);
-    return v.x == t ? slope.x : v.y == t ? slope.y : slope.z;
+    return v.x == t ? vec2(x.x, y.x) : v.y == t ? vec2(x.y, y.y) : vec2(x.z, y.z);
 }
 #endif
 
-// Per channel: the value at a point, and how much it changes over a pixel, both axes' changes added.
+// Per channel: the value at a point, and its gradient, per texel.
 struct FetexBilevelValues {
-    FETEX_BILEVEL_VALUES value, change;
+    FETEX_BILEVEL_VALUES value, slopeX, slopeY;
 };
 
 #if FETEX_BILEVEL_FILTERED
-FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local, vec2 pixel) {
+FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local) {
     FetexBilevelValues v;
     v.value = textureLod(fetexBilevelTexels, (vec2(base) + local) / vec2(fetexBilevelSize()), 0.0).FETEX_BILEVEL_SWIZZLE;
-    v.change = FETEX_BILEVEL_VALUES(0.0); // the screen's derivatives instead
+    v.slopeX = v.slopeY = FETEX_BILEVEL_VALUES(0.0); // the screen's derivatives instead
     return v;
 }
 #else
 // Texels stand in their middles: the square of four around the point begins in this texel or the one before.
-FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local, vec2 pixel) {
+FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local) {
     vec2 at = local - 0.5, whole = floor(at), weight = at - whole;
     FETEX_BILEVEL_VALUES upperLeft, upperRight, lowerLeft, lowerRight;
 #if FETEX_BILEVEL_GATHER
@@ -139,26 +140,35 @@ FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local, vec2 pixel) {
     lowerLeft = texelFetch(fetexBilevelTexels, ivec2(a.x, b.y), 0).FETEX_BILEVEL_SWIZZLE;
     lowerRight = texelFetch(fetexBilevelTexels, b, 0).FETEX_BILEVEL_SWIZZLE;
 #endif
-    FETEX_BILEVEL_VALUES upper = upperRight - upperLeft, lower = lowerRight - lowerLeft; // changes along x
-    FETEX_BILEVEL_VALUES left = upperLeft + upper * weight.x, right = lowerLeft + lower * weight.x;
-    FETEX_BILEVEL_VALUES down = right - left;
+    FETEX_BILEVEL_VALUES upperSlope = upperRight - upperLeft, lowerSlope = lowerRight - lowerLeft;
+    FETEX_BILEVEL_VALUES upper = upperLeft + upperSlope * weight.x, lower = lowerLeft + lowerSlope * weight.x;
     FetexBilevelValues v;
-    v.value = left + down * weight.y;
-    v.change = abs(upper + (lower - upper) * weight.y) * pixel.x + abs(down) * pixel.y;
+    v.slopeX = upperSlope + (lowerSlope - upperSlope) * weight.y;
+    v.slopeY = lower - upper;
+    v.value = upper + v.slopeY * weight.y;
     return v;
 }
 #endif
 
+// The part of a pixel that is above, if a straight edge cuts it. change: of t along its sides.
+float fetexBilevelCut(float t, vec2 change) {
+    change = abs(change);
+    float shorter = min(change.x, change.y), longer = max(change.x, change.y), fromEdge = abs(t - 0.5);
+    // A corner of the pixel meets the edge: from there on the part grows ever less. Quotients of 0 are kept out.
+    float beyond = clamp(fromEdge - 0.5 * (longer - shorter), 0.0, shorter);
+    float missing = 0.5 * beyond * (beyond / max(shorter, 1e-30));
+    // Where nothing changes the cut is hard: the quotient is out of range.
+    return clamp(0.5 + sign(t - 0.5) * ((fromEdge - missing) / max(longer, 1e-30)), 0.0, 1.0);
+}
+
 float fetexBilevelCoverageTexel(ivec2 base, vec2 local, vec2 pixel) {
-    FetexBilevelValues v = fetexBilevelValues(base, local, clamp(pixel, 0.0, 1.0));
+    FetexBilevelValues v = fetexBilevelValues(base, local);
     float t = fetexBilevelCombine(v.value);
 #if FETEX_BILEVEL_FILTERED
-    float change = FETEX_BILEVEL_FWIDTH(t);
+    return fetexBilevelCut(t, FETEX_BILEVEL_DERIVATIVES(t));
 #else
-    float change = fetexBilevelChosen(v.change, v.value);
+    return fetexBilevelCut(t, fetexBilevelChosen(v.slopeX, v.slopeY, v.value) * clamp(pixel, 0.0, 1.0));
 #endif
-    // Where nothing changes the cut is hard: the quotient is out of range, and 0 / 0 is kept out.
-    return clamp(0.5 + (t - 0.5) / max(change, 1e-30), 0.0, 1.0);
 }
 
 vec4 fetexBilevelAbove(ivec2 base, vec2 local) {
@@ -182,7 +192,7 @@ vec4 fetexBilevelColor(float coverage, ivec2 base, vec2 local) {
 }
 
 vec4 fetexBilevelSampleTexel(ivec2 base, vec2 local) {
-    float t = fetexBilevelCombine(fetexBilevelValues(base, local, vec2(0.0)).value);
+    float t = fetexBilevelCombine(fetexBilevelValues(base, local).value);
     return fetexBilevelColor(t > 0.5 ? 1.0 : 0.0, base, local);
 }
 
@@ -201,7 +211,7 @@ float fetexBilevelValue(vec2 uv) {
     ivec2 base;
     vec2 local;
     fetexBilevelPosition(uv, base, local);
-    return fetexBilevelCombine(fetexBilevelValues(base, local, vec2(0.0)).value);
+    return fetexBilevelCombine(fetexBilevelValues(base, local).value);
 }
 
 vec4 fetexBilevelSample(vec2 uv) {

@@ -122,7 +122,7 @@ namespace {
 /// The view goes ahead: derivatives of the screen are of a pixel, and a sample is only a part of it.
 std::string bilevel_source(Dialect dialect, const BilevelTexture& texture, bool filtered, bool footprint) {
     return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) +
-           define("FETEX_BILEVEL_FWIDTH(t)", "(fwidth(t) / float(fetexSupersample))") +
+           define("FETEX_BILEVEL_DERIVATIVES(t)", "(vec2(dFdx(t), dFdy(t)) / float(fetexSupersample))") +
            (footprint ? define("FETEX_VIEW_FOOTPRINT", 1) : "") + file_text("view.glsl") +
            file_text("fetex_bilevel.glsl");
 }

@@ -146,6 +146,33 @@ TEST_P(BilevelConformance, equalsTheReferenceAtEveryScaleOfTheLevels) {
     report("levels");
 }
 
+/// Slopes along one axis alone, none at all, saddles, and the least that there are: where quotients of 0 lie in wait.
+TEST_P(BilevelConformance, equalsTheReferenceOnSlopesOfNothing) {
+    using Byte = std::uint8_t (*)(std::uint32_t i, std::uint32_t j, std::uint32_t channel);
+    const Byte patterns[] = {
+        [](std::uint32_t i, std::uint32_t, std::uint32_t c) -> std::uint8_t { return (i + c) % 3 == 0 ? 255 : 40; },
+        [](std::uint32_t, std::uint32_t j, std::uint32_t c) -> std::uint8_t { return (j + c) % 3 == 0 ? 255 : 40; },
+        [](std::uint32_t i, std::uint32_t j, std::uint32_t c) -> std::uint8_t { return (i + j + c) % 2 ? 255 : 0; },
+        [](std::uint32_t i, std::uint32_t j, std::uint32_t) -> std::uint8_t { return i + j > 9 ? 128 : 127; },
+        [](std::uint32_t i, std::uint32_t, std::uint32_t c) -> std::uint8_t { return i < 4 ? 0 : 254 + c % 2; },
+        [](std::uint32_t, std::uint32_t, std::uint32_t c) -> std::uint8_t { return c % 2 ? 127 : 128; },
+    };
+    for (const BilevelRule rule : kBilevelRules) {
+        BilevelTexture t = random_bilevel(1, {.width = 12, .height = 10, .rule = rule});
+        for (std::size_t pattern = 0; pattern < std::size(patterns); ++pattern) {
+            for (std::uint32_t k = 0; k < t.texels.size(); ++k)
+                t.texels[k] = patterns[pattern](k / t.channels % 12, k / t.channels / 12, k % t.channels);
+            ASSERT_FALSE(renderer_->upload_bilevel(t).has_value());
+            for (const double magnification : {1.0, 8.0, 64.0})
+                for (const View& view : views_at(t, magnification))
+                    expect_equal(t, view, {kSide, kSide, 1, Filter::Area},
+                                 "rule " + std::to_string(static_cast<int>(rule)) + ", pattern " +
+                                     std::to_string(pattern) + " at " + std::to_string(magnification));
+        }
+    }
+    report("slopes of nothing");
+}
+
 /// fp32 has 10 bits left for the place in a texel at 16384; texel and offset have 32.
 TEST_P(BilevelConformance, staysSharpFarFromTheOrigin) {
     const BilevelTexture texture = random_bilevel(7, {.width = 16384, .height = 3});

@@ -72,8 +72,8 @@ TEST_P(BilevelSampling, coverageIsMonotoneAndBetweenTheHardCutAndHalf) {
     }
 }
 
-/// The colour against points in the pixel, cut hard. A ramp is not what a slanted edge does: at 45 degrees and u of the
-/// way from the middle to where the pixel ends it is off by u/2·(1 − u), up to 1/8 and by 0.09 on average of squares.
+/// The colour against points in the pixel, cut hard. Of small pixels most have an edge that is straight in them; a few
+/// have a corner, where two channels meet.
 TEST_P(BilevelSampling, coverageIsNearTheMeanOfPointsInSmallPixels) {
     Random random(4);
     double worst = 0, squares = 0;
@@ -86,7 +86,7 @@ TEST_P(BilevelSampling, coverageIsNearTheMeanOfPointsInSmallPixels) {
             const double soft = bilevel_sample_area(t, x, y, {side, side}).r;
             if (soft == 0 || soft == 1) continue;
             double sum = 0;
-            constexpr int kPoints = 12;
+            constexpr int kPoints = 24;
             for (int a = 0; a < kPoints; ++a)
                 for (int b = 0; b < kPoints; ++b)
                     sum += bilevel_sample(t, x + side * ((a + 0.5) / kPoints - 0.5),
@@ -101,7 +101,7 @@ TEST_P(BilevelSampling, coverageIsNearTheMeanOfPointsInSmallPixels) {
     std::printf("  rule %u: %d pixels with an edge, root mean square %.4f, worst %.3f\n",
                 static_cast<unsigned>(GetParam()), pixels, mean, worst);
     EXPECT_GT(pixels, 500);
-    EXPECT_LT(mean, 0.09);
+    EXPECT_LT(mean, bilevel_channels(GetParam()) == 1 ? 0.015 : 0.035);
 }
 
 TEST_P(BilevelSampling, levelsFollowEachOtherWithoutAStep) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "formats/bilevel.h"
 #include "formats/validate.h"
@@ -112,16 +113,111 @@ TEST(BilevelCut, isTheExactCoverageOfEdgesAlongAnAxis) {
     }
 }
 
-/// A slanted edge: the mean over the pixel's extent across the edge. Its middle is exact, its ends are where the pixel
-/// no longer meets the edge.
-TEST(BilevelCut, endsWhereThePixelLeavesASlantedEdge) {
-    const BilevelValue on_edge{0.5, 0.3, -0.2}; // w = 0.3·0.2 + 0.2·0.1 = 0.08
+/// The part of a pixel where d + x·u + y·v > 0, u and v its coordinates from -1/2 to 1/2: the pixel clipped as a
+/// polygon.
+double clipped_part(double d, double x, double y) {
+    constexpr std::array<std::array<double, 2>, 4> kCorners = {{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+    std::vector<std::array<double, 2>> inside;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto &a = kCorners[k], &b = kCorners[(k + 1) % 4];
+        const double from = d + x * a[0] + y * a[1], to = d + x * b[0] + y * b[1];
+        if (from > 0) inside.push_back(a);
+        if ((from > 0) == (to > 0)) continue;
+        const double part = from / (from - to);
+        inside.push_back({std::lerp(a[0], b[0], part), std::lerp(a[1], b[1], part)});
+    }
+    double twice = 0;
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+        const auto &a = inside[k], &b = inside[(k + 1) % inside.size()];
+        twice += a[0] * b[1] - a[1] * b[0];
+    }
+    return twice / 2;
+}
+
+/// Numbers up to 1, rounded some twenty times on either way; 2^-53 each.
+constexpr double kRounding = 1e-14;
+
+/// Slopes and pixels with all kinds of angles between edge and pixel, some of them very nearly upright.
+std::vector<std::pair<BilevelValue, BilevelPixel>> slopes_and_pixels() {
+    std::vector<double> angles;
+    for (int k = 0; k < 96; ++k)
+        angles.push_back(k * 0.0654498469497873573); // a turn in 96 steps
+    for (const double little : {1e-3, 1e-6, 1e-9, 1e-15, 1e-18, 1e-200, 1e-310})
+        angles.insert(angles.end(), {little, -little, std::numbers::pi / 2 - little});
+    std::vector<std::pair<BilevelValue, BilevelPixel>> all;
+    for (const double angle : angles)
+        for (const double slope : {1.3, 0.02})
+            for (const BilevelPixel pixel : {BilevelPixel{1, 1}, {0.25, 0.25}, {0.9, 0.1}, {0.001, 0.5}, {1, 1e-12}})
+                all.push_back({{0.5, slope * std::cos(angle), slope * std::sin(angle)}, pixel});
+    return all;
+}
+
+/// How far from 1/2 t is where the edge leaves the pixel.
+double reach(const BilevelValue& v, BilevelPixel pixel) {
+    return (std::abs(v.dx) * pixel.width + std::abs(v.dy) * pixel.height) / 2;
+}
+
+TEST(BilevelCut, isTheExactCoverageOfStraightEdges) {
+    for (auto [v, pixel] : slopes_and_pixels()) {
+        const double leaves = reach(v, pixel);
+        for (double at = -1.2; at <= 1.2; at += 0.03) {
+            v.t = 0.5 + at * leaves;
+            const double exact = clipped_part(v.t - 0.5, v.dx * pixel.width, v.dy * pixel.height);
+            ASSERT_NEAR(bilevel_coverage(v, pixel), exact, kRounding) << v.dx << ' ' << v.dy << ' ' << at;
+        }
+    }
+}
+
+TEST(BilevelCut, ofASlantedEdgeByHand) {
+    const double dx = 0.3, dy = -0.2; // over the pixel 0.06 and 0.02: straight to ±0.02, gone at ±0.04
     const BilevelPixel pixel{0.2, 0.1};
-    EXPECT_DOUBLE_EQ(bilevel_coverage(on_edge, pixel), 0.5);
-    EXPECT_DOUBLE_EQ(bilevel_coverage({0.54, 0.3, -0.2}, pixel), 1);
-    EXPECT_NEAR(bilevel_coverage({0.46, 0.3, -0.2}, pixel), 0, 1e-12);
-    EXPECT_DOUBLE_EQ(bilevel_coverage({0.52, 0.3, -0.2}, pixel), 0.75);
-    EXPECT_LT(bilevel_coverage({0.5399, 0.3, -0.2}, pixel), 1);
+    EXPECT_DOUBLE_EQ(bilevel_coverage({0.5, dx, dy}, pixel), 0.5);
+    EXPECT_NEAR(bilevel_coverage({0.51, dx, dy}, pixel), 2.0 / 3, kRounding);
+    EXPECT_NEAR(bilevel_coverage({0.52, dx, dy}, pixel), 5.0 / 6, kRounding);
+    EXPECT_NEAR(bilevel_coverage({0.53, dx, dy}, pixel), 23.0 / 24, kRounding);
+    EXPECT_NEAR(bilevel_coverage({0.47, dx, dy}, pixel), 1.0 / 24, kRounding);
+    EXPECT_NEAR(bilevel_coverage({0.54, dx, dy}, pixel), 1, kRounding);
+    EXPECT_NEAR(bilevel_coverage({0.46, dx, dy}, pixel), 0, kRounding);
+    EXPECT_EQ(bilevel_coverage({0.5401, dx, dy}, pixel), 1);
+    EXPECT_EQ(bilevel_coverage({0.4599, dx, dy}, pixel), 0);
+}
+
+/// A small step of t is a small step of the coverage, upwards; also where one piece of it ends and the next begins.
+TEST(BilevelCut, isContinuousAndMonotone) {
+    for (auto [v, pixel] : slopes_and_pixels()) {
+        const double x = std::abs(v.dx) * pixel.width, y = std::abs(v.dy) * pixel.height;
+        for (const double place : {-(x + y) / 2, -std::abs(x - y) / 2, 0.0, std::abs(x - y) / 2, (x + y) / 2}) {
+            double before = 0, last = 0;
+            for (int step = -20; step <= 20; ++step) {
+                v.t = 0.5 + place + step * 1e-3 * (x + y);
+                const double coverage = bilevel_coverage(v, pixel);
+                ASSERT_TRUE(coverage >= 0 && coverage <= 1) << coverage;
+                if (step > -20) {
+                    ASSERT_GE(coverage, before - kRounding);
+                    ASSERT_LE(coverage, before + (v.t - last) / std::max(x, y) + kRounding);
+                }
+                before = coverage, last = v.t;
+            }
+        }
+    }
+}
+
+/// Nothing becomes of a slope too small for its square, or of none, but a hard cut.
+TEST(BilevelCut, isANumberForEverySlope) {
+    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+    for (const double dx : {0.0, kLeast, 1e-310, 1e-200, 1e-20, 1.0}) {
+        for (const double dy : {0.0, kLeast, 1e-310, 1e-200, 1e-20, 1.0}) {
+            for (const double side : {0.0, kLeast, 1e-160, 1.0}) {
+                for (const double t : {0.0, 0.5, 1.0, std::nextafter(0.5, 1.0)}) {
+                    const double coverage = bilevel_coverage({t, dx, dy}, {side, 1});
+                    ASSERT_TRUE(coverage >= 0 && coverage <= 1) << dx << ' ' << dy << ' ' << side << ' ' << t;
+                    if (std::max(dx, dy) < 1e-20) {
+                        EXPECT_EQ(coverage, t > 0.5 ? 1.0 : t < 0.5 || (dx * side == 0 && dy == 0) ? 0.0 : 0.5);
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(BilevelCut, countsSidesBeyondATexelAsOne) {
