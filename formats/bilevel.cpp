@@ -187,9 +187,9 @@ FbtColor bilevel_sample_mip(const BilevelTexture& texture, double x, double y, B
         k == 0 ? bilevel_coverage(bilevel_value(texture, x, y), pixel) : bilevel_mip_coverage(texture, k, x, y);
     const double from = fbt_mip_scale(texture.width, texture.height, k);
     if (k < n && side > from) {
-        const double to = fbt_mip_scale(texture.width, texture.height, k + 1);
-        coverage = std::lerp(coverage, bilevel_mip_coverage(texture, k + 1, x, y),
-                             std::log(side / from) / std::log(to / from));
+        const double part =
+            std::log(side / from) / std::log(fbt_mip_scale(texture.width, texture.height, k + 1) / from);
+        coverage = std::lerp(coverage, bilevel_mip_coverage(texture, k + 1, x, y), part * part);
     }
     return color_of_coverage(texture, coverage, clamp_to(x, texture.width), clamp_to(y, texture.height));
 }

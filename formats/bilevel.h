@@ -82,10 +82,11 @@ FbtColor bilevel_sample_area_local(const BilevelTexture& texture, std::uint32_t 
 /// The coverage, 0…1, of level k = 1 … n at a point of texel space, bilinear. Precondition: the texture has mips.
 double bilevel_mip_coverage(const BilevelTexture& texture, std::uint32_t k, double x, double y);
 
-/// The colour of a pixel of any size around a point, sides as in BilevelPixel but without its upper bound. Trilinear:
-/// the levels between whose scales (fbt_mip_scale) the longer side lies, mixed by its logarithm, as fbt_sample_mip
-/// does. Level 0 counts with its bilevel_coverage over the pixel, sides of at most 1. Continuous in the sides.
-/// Precondition: the texture has mips.
+/// The colour of a pixel of any size around a point, sides as in BilevelPixel but without its upper bound: of the
+/// levels between whose scales (fbt_mip_scale) the longer side lies the coarser one counts with the square of how far
+/// its logarithm is on the way. A level interpolated is blurred as by a pixel √3 as long as its scale, so the coarser
+/// one comes late. Level 0 counts with its bilevel_coverage over the pixel, sides of at most 1. Continuous in the
+/// sides. Precondition: the texture has mips.
 FbtColor bilevel_sample_mip(const BilevelTexture& texture, double x, double y, BilevelPixel pixel);
 
 } // namespace fetex

@@ -262,8 +262,10 @@ vec4 fetexBilevelSampleMipTexel(ivec2 base, vec2 local, vec2 pixel) {
     vec2 uv = (vec2(base) + local) / vec2(size);
     float coverage = level > 0 ? fetexBilevelMipLevel(uv, level) : fetexBilevelCoverageTexel(base, local, pixel);
     float from = fetexBilevelMipScale(level), to = fetexBilevelMipScale(min(level + 1, levels));
-    if (level < levels && side > from)
-        coverage = mix(coverage, fetexBilevelMipLevel(uv, level + 1), log2(side / from) / log2(to / from));
+    if (level < levels && side > from) {
+        float part = log2(side / from) / log2(to / from);
+        coverage = mix(coverage, fetexBilevelMipLevel(uv, level + 1), part * part);
+    }
     return fetexBilevelColor(coverage, base, local);
 }
 

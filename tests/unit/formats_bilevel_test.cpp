@@ -250,7 +250,7 @@ TEST(BilevelColors, ofAnImageLieOverTheWholeTexture) {
 }
 
 /// 4×2 texels: levels of 2×1 and 1×1.
-TEST(BilevelLevels, areMixedByTheLogarithmOfTheLongerSide) {
+TEST(BilevelLevels, areMixedByTheSquareOfTheLogarithmOfTheLongerSide) {
     BilevelTexture t = grey(4, 2, {0, 0, 255, 255, 0, 0, 255, 255});
     t.mips = {51, 204, 102}; // 0.2, 0.8; 0.4
     const auto red = [&](double x, double side) { return bilevel_sample_mip(t, x, 1, {side, side}).r; };
@@ -259,10 +259,10 @@ TEST(BilevelLevels, areMixedByTheLogarithmOfTheLongerSide) {
     EXPECT_NEAR(red(-3, 2), 0.2, 1e-15);
     EXPECT_NEAR(red(1, 4), 0.4, 1e-15);
     EXPECT_NEAR(red(3, 1e6), 0.4, 1e-15);
-    EXPECT_NEAR(red(1, 2 * std::sqrt(2.0)), 0.3, 1e-15);
-    EXPECT_NEAR(red(2, 1), 0.5, 1e-15); // the soft cut
+    EXPECT_NEAR(red(1, 2 * std::sqrt(2.0)), 0.25, 1e-15); // a quarter of the coarser
+    EXPECT_NEAR(red(2, 1), 0.5, 1e-15);                   // the soft cut
     EXPECT_NEAR(red(2.25, 1), 0.75, 1e-15);
-    EXPECT_NEAR(red(2.25, std::sqrt(2.0)), (0.75 + (0.2 + 0.6 * 0.625)) / 2, 1e-15);
+    EXPECT_NEAR(red(2.25, std::sqrt(2.0)), 0.75 * 0.75 + 0.25 * (0.2 + 0.6 * 0.625), 1e-15);
     EXPECT_EQ(bilevel_sample_mip(t, 2.25, 1, {0.3, 4}).r, bilevel_sample_mip(t, 2.25, 1, {4, 0.1}).r);
     EXPECT_NEAR(bilevel_sample_mip(t, 2.1, 1, {0.4, 0.3}).r, bilevel_sample_area(t, 2.1, 1, {0.4, 0.3}).r, 1e-15);
 }
