@@ -323,8 +323,8 @@ inline constexpr int kFitPaperSteps = 2;
 /// Square texels: what a step of a byte must win, far above roundings of single precision sums of 32 lines.
 inline constexpr double kWorthAByte = 1e-7;
 
-/// Square texels of wrong area that a part of the silhouette is worth which wouldn't show at all: a quarter of a texel's
-/// side each way, about what a spot shows that one byte makes.
+/// Square texels of wrong area that it is worth to show a part of the silhouette that wouldn't show at all, or not to
+/// show one that it hasn't: a quarter of a texel's side each way, about the spot that one byte makes.
 inline constexpr double kWorthAPart = 1.0 / 16;
 
 /// Parts of a pixel: nine pixels that a straight edge covers otherwise than they say, by more in the root mean square,

@@ -24,7 +24,8 @@ struct Effort {
     int pair_sweeps;
 };
 constexpr Effort kEffortOfOne{8, 16, 2}, kEffortOfSeveral{8, 32, 3};
-constexpr std::uint32_t kVerifyLines = 64; ///< a texel, of parts and of the figure in the report
+constexpr std::uint32_t kVerifyLines = 64; ///< a texel, of the figure in the report
+constexpr std::uint32_t kPartRows = 65;    ///< a texel
 constexpr int kContourSteps = 12, kSweeps = 80;
 constexpr std::uint32_t kMaxSize = 16384;
 
@@ -72,11 +73,12 @@ Fitted fit_rule(const Solver& solver, const Silhouette& silhouette, GridSize siz
     const ScannedOutline finer(silhouette, outline, size.width, size.height, effort.polish_lines);
     const ThresholdCells fine(finer, size.width, size.height, rule);
     out.fit.bytes_tried += fit_bytes(fine, out.values, greys, {kSweeps, effort.pair_sweeps}, out.fit.trace);
-    const ScannedOutline finest(silhouette, outline, size.width, size.height, kVerifyLines);
-    out.fit.parts_mended = mend_parts(fine, finest, outline, greys, out.values);
+    const ScannedOutline rows(silhouette, outline, size.width, size.height, kPartRows);
+    out.fit.parts_mended = mend_parts(fine, rows, outline, greys, out.values);
     const double area = static_cast<double>(size.width) * size.height;
     for (double& wrong : out.fit.trace)
         wrong /= area;
+    const ScannedOutline finest(silhouette, outline, size.width, size.height, kVerifyLines);
     out.fit.wrong = ThresholdCells(finest, size.width, size.height, rule).wrong_area(out.values) / area;
     return out;
 }
@@ -125,7 +127,7 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     t.below = packed(silhouette.below), t.above = packed(silhouette.above);
     if (progress) progress("levels", 0.9);
     if (options.mips) t.mips = coverage_levels(silhouette, t.width, t.height, options.threads);
-    const PartCounts parts = count_parts(silhouette, t, kVerifyLines, options.threads);
+    const PartCounts parts = count_parts(silhouette, t, kPartRows, options.threads);
     out.stats.parts = parts.parts, out.stats.parts_lost = parts.lost, out.stats.parts_false = parts.invented;
     out.stats.gpu_bytes = fetex::bilevel_gpu_bytes(t);
     out.stats.edges = silhouette.edges.size(), out.stats.edges_varying = silhouette.edges_varying;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "compiler/bilevel/threshold_cells.h"
@@ -270,74 +271,161 @@ struct PartExtent {
     }
 };
 
-/// What a texture makes of the silhouette's parts.
-struct Difference {
-    std::vector<PartExtent> invented;
-    std::vector<std::pair<std::uint32_t, PartExtent>> lost; ///< of runs; the part
+/// Whether a part of a window's rows goes on outside the window.
+bool leaves(const PartExtent& e, const Window& w, const Rows& shown, const Texture& t) {
+    return (w.first_column > 0 && e.from <= w.first_column - 0.5) ||
+           (w.last_column <= t.width && e.to >= w.last_column - 0.5) ||
+           (shown.first > 0 && e.first_row == shown.first) || (w.last_row <= t.height && e.last_row + 1 == shown.end());
+}
+
+/// What shows in one row alone is the tip of something or an island: seen along more rows.
+class Specks {
+  public:
+    /// per_texel: of the rows that extents are of.
+    Specks(std::span<const OutlineSegment> outline, std::uint32_t height, std::uint32_t per_texel)
+        : outline_(outline), per_texel_(per_texel), beside_(height) {
+        for (std::uint32_t k = 0; k < outline.size(); ++k) {
+            const auto row = [&](double y) {
+                return static_cast<std::uint32_t>(std::clamp(std::floor(y), 0.0, height - 1.0));
+            };
+            const auto [low, high] = std::minmax(outline[k].y0, outline[k].y1);
+            for (std::uint32_t j = row(low); j <= row(high); ++j)
+                beside_[j].push_back(k);
+        }
+    }
+
+    /// Of a speck of the texture that is wrong in its row.
+    [[nodiscard]] bool is_island(const PartExtent& e, bool above, const Texture& t) const {
+        const double x = (e.from + e.to) / 2, y = (e.first_row + 0.5) / per_texel_;
+        const Window w = window_of(e.from, e.to, y, t);
+        const Rows shown = TextureRows(t, w, kRows).take();
+        UnionFind sets = join_rows(shown);
+        const auto n = std::clamp(static_cast<std::uint32_t>(y * kRows), shown.first, shown.end() - 1);
+        std::uint32_t part = kNone;
+        for (const Run& r : shown.row(n)) {
+            if (r.above == above && r.from <= x && x <= r.to) part = sets.find(shown.index(r));
+        }
+        if (part == kNone) return false;
+        PartExtent all;
+        for (std::uint32_t k = shown.first; k < shown.end(); ++k) {
+            for (const Run& r : shown.row(k)) {
+                if (sets.find(shown.index(r)) == part) all.add(k, r);
+            }
+        }
+        return all.first_row < all.last_row && !leaves(all, w, shown, t) && !meets_outline(all);
+    }
+
+  private:
+    static constexpr std::uint32_t kRows = 257; ///< a texel
+
+    [[nodiscard]] static Window window_of(double from, double to, double y, const Texture& t) {
+        const auto cell = [](double at) { return static_cast<std::uint32_t>(std::floor(at + 0.5)); };
+        const auto before = [](std::uint32_t v) { return v == 0 ? 0 : v - 1; };
+        return {before(cell(from)),
+                std::min(cell(to), t.width) + std::min(2U, t.width + 1 - std::min(cell(to), t.width)), before(cell(y)),
+                std::min(cell(y) + 2, t.height + 1)};
+    }
+
+    [[nodiscard]] bool meets_outline(const PartExtent& e) const {
+        const double low = (e.first_row - 0.5) / kRows, high = (e.last_row + 1.5) / kRows;
+        const auto last = std::min(static_cast<std::size_t>(high), beside_.size() - 1);
+        for (std::size_t j = static_cast<std::size_t>(std::max(low, 0.0)); j <= last; ++j) {
+            for (const std::uint32_t k : beside_[j]) {
+                const OutlineSegment& s = outline_[k];
+                if (std::max(s.x0, s.x1) >= e.from && std::min(s.x0, s.x1) <= e.to && std::max(s.y0, s.y1) >= low &&
+                    std::min(s.y0, s.y1) <= high)
+                    return true;
+            }
+        }
+        return false;
+    }
+
+    std::span<const OutlineSegment> outline_;
+    std::uint32_t per_texel_;
+    std::vector<std::vector<std::uint32_t>> beside_; ///< segments of a row of texels
 };
 
-Difference difference(const SilhouetteParts& wanted, const Rows& shown) {
+/// Of a texture's rows, those of a window or all: parts that are wrong everywhere, and how many of the silhouette show.
+struct Shown {
+    std::vector<PartExtent> invented;
+    std::vector<std::uint32_t> alive; ///< parts of the silhouette, ascending
+};
+
+Shown judge(const SilhouetteParts& wanted, const Specks& specks, const Texture& t, const Window& w, const Rows& shown) {
+    Shown out;
     UnionFind sets = join_rows(shown);
-    std::vector<std::uint8_t> right(sets.size(), 0), alive(wanted.numbers(), 0);
+    std::vector<std::uint8_t> right(sets.size(), 0);
     for (std::uint32_t n = shown.first; n < shown.end(); ++n)
-        each_shared(wanted.rows.row(n), shown.row(n),
-                    [&](const Run& a, const Run& b) { alive[a.part] = 1, right[sets.find(shown.index(b))] = 1; });
-    std::vector<PartExtent> of_shown(sets.size()), of_wanted(wanted.numbers());
+        each_shared(wanted.rows.row(n), shown.row(n), [&](const Run& a, const Run& b) {
+            if (out.alive.empty() || out.alive.back() != a.part) out.alive.push_back(a.part);
+            right[sets.find(shown.index(b))] = 1;
+        });
+    std::ranges::sort(out.alive);
+    out.alive.erase(std::unique(out.alive.begin(), out.alive.end()), out.alive.end());
+    std::vector<PartExtent> extents(sets.size());
     for (std::uint32_t n = shown.first; n < shown.end(); ++n) {
         for (const Run& r : shown.row(n)) {
             const std::uint32_t part = sets.find(shown.index(r));
-            if (right[part] == 0) of_shown[part].add(n, r);
+            if (right[part] == 0) extents[part].add(n, r);
         }
+    }
+    for (std::uint32_t k = 0; k < extents.size(); ++k) {
+        const PartExtent& e = extents[k];
+        if (e.first_row == kNone || leaves(e, w, shown, t)) continue;
+        if (e.first_row < e.last_row || specks.is_island(e, shown.runs[k].above, t)) out.invented.push_back(e);
+    }
+    return out;
+}
+
+/// Parts of the silhouette that don't show. alive: ascending.
+std::vector<PartExtent> lost_parts(const SilhouetteParts& wanted, const std::vector<std::uint32_t>& alive) {
+    std::vector<PartExtent> extents(wanted.numbers()), out;
+    for (std::uint32_t n = 0; n < wanted.rows.end(); ++n) {
         for (const Run& r : wanted.rows.row(n)) {
-            if (alive[r.part] == 0) of_wanted[r.part].add(n, r);
+            if (!std::ranges::binary_search(alive, r.part)) extents[r.part].add(n, r);
         }
     }
-    Difference out;
-    for (const PartExtent& e : of_shown) {
-        if (e.first_row < e.last_row) out.invented.push_back(e);
-    }
-    for (std::uint32_t k = 0; k < of_wanted.size(); ++k) {
-        if (of_wanted[k].first_row <= of_wanted[k].last_row) out.lost.emplace_back(k, of_wanted[k]);
-    }
+    std::ranges::copy_if(extents, std::back_inserter(out), [](const PartExtent& e) { return e.first_row != kNone; });
     return out;
 }
 
 /// Changes of single bytes that leave fewer parts lost or invented.
 class Mender {
   public:
-    Mender(const ThresholdCells& fine, const SilhouetteParts& wanted, std::uint32_t per_texel, MidGreys greys,
-           std::vector<std::uint8_t>& values)
-        : fine_(fine), wanted_(wanted), per_texel_(per_texel), greys_(greys), values_(values) {}
+    Mender(const ThresholdCells& fine, const SilhouetteParts& wanted, const Specks& specks, std::uint32_t per_texel,
+           MidGreys greys, std::vector<std::uint8_t>& values)
+        : fine_(fine), wanted_(wanted), specks_(specks), per_texel_(per_texel), greys_(greys), values_(values) {}
 
     std::uint64_t run() {
-        const Difference now = difference(wanted_, texture_rows(texture(), per_texel_, 1));
-        for (const PartExtent& e : now.invented)
-            mend(e, INFINITY, [](const State& before, const State& after) {
-                return after.invented < before.invented && after.alive >= before.alive;
-            });
-        for (const auto& [part, extent] : now.lost)
-            mend(extent, budget::kWorthAPart, [](const State& before, const State& after) {
-                return after.invented <= before.invented && after.alive > before.alive;
-            });
+        for (int pass = 0; pass < kPasses; ++pass) {
+            const std::uint64_t before = changed_;
+            const Texture t = texture();
+            const Shown now = judge(wanted_, specks_, t, t.everything(), texture_rows(t, per_texel_, 1));
+            for (const PartExtent& e : now.invented)
+                mend(e, [](const Shown& was, const Shown& is) {
+                    return is.invented.size() < was.invented.size() && is.alive.size() >= was.alive.size();
+                });
+            for (const PartExtent& e : lost_parts(wanted_, now.alive))
+                mend(e, [](const Shown& was, const Shown& is) {
+                    return is.invented.size() <= was.invented.size() && is.alive.size() > was.alive.size();
+                });
+            if (changed_ == before) break;
+        }
         return changed_;
     }
 
   private:
-    /// Of a window.
-    struct State {
-        std::size_t invented = 0; ///< parts inside it
-        std::size_t alive = 0;    ///< parts of the silhouette that show in it
-    };
     struct Change {
         double cost = 0; ///< square texels
         std::size_t value = 0;
         std::uint8_t to = 0;
     };
+    static constexpr int kPasses = 4;            ///< a change may uncover a part
     static constexpr std::uint32_t kLargest = 4; ///< cells along a part's sides: those that are larger stay
 
     [[nodiscard]] Texture texture() const { return {values_, fine_.width(), fine_.height(), fine_.rule()}; }
 
-    template <class Better> void mend(const PartExtent& e, double most, const Better& better) {
+    template <class Better> void mend(const PartExtent& e, const Better& better) {
         const auto cell = [](double at) { return static_cast<std::uint32_t>(std::floor(at + 0.5)); };
         const auto row = [&](std::uint32_t n) { return cell((n + 0.5) / per_texel_); };
         const Window at{cell(e.from), std::min(cell(e.to), fine_.width()) + 1, row(e.first_row), row(e.last_row) + 1};
@@ -346,9 +434,9 @@ class Mender {
         const auto before = [](std::uint32_t v) { return v < 2 ? 0 : v - 2; };
         const Window around{before(at.first_column), std::min(at.last_column + 2, fine_.width() + 1),
                             before(at.first_row), std::min(at.last_row + 2, fine_.height() + 1)};
-        const State now = state(around);
+        const Shown now = state(around);
         for (const Change& c : changes(at)) {
-            if (c.cost > most) return;
+            if (c.cost > budget::kWorthAPart) return;
             const std::uint8_t old = values_[c.value];
             values_[c.value] = c.to;
             if (better(now, state(around))) {
@@ -398,42 +486,14 @@ class Mender {
         return sum;
     }
 
-    [[nodiscard]] State state(const Window& w) const {
+    [[nodiscard]] Shown state(const Window& w) const {
         const Texture t = texture();
-        const Rows shown = TextureRows(t, w, per_texel_).take();
-        UnionFind sets = join_rows(shown);
-        std::vector<std::uint8_t> right(sets.size(), 0);
-        std::vector<std::uint32_t> alive;
-        for (std::uint32_t n = shown.first; n < shown.end(); ++n)
-            each_shared(wanted_.rows.row(n), shown.row(n), [&](const Run& a, const Run& b) {
-                right[sets.find(shown.index(b))] = 1;
-                alive.push_back(a.part);
-            });
-        std::ranges::sort(alive);
-        State out;
-        out.alive = static_cast<std::size_t>(std::unique(alive.begin(), alive.end()) - alive.begin());
-        std::vector<PartExtent> extents(sets.size());
-        for (std::uint32_t n = shown.first; n < shown.end(); ++n) {
-            for (const Run& r : shown.row(n))
-                extents[sets.find(shown.index(r))].add(n, r);
-        }
-        for (std::uint32_t k = 0; k < extents.size(); ++k) {
-            if (right[k] == 0 && extents[k].first_row < extents[k].last_row && !leaves(extents[k], w, shown))
-                ++out.invented;
-        }
-        return out;
-    }
-
-    /// Whether a part goes on outside a window.
-    [[nodiscard]] bool leaves(const PartExtent& e, const Window& w, const Rows& shown) const {
-        return (w.first_column > 0 && e.from <= w.first_column - 0.5) ||
-               (w.last_column <= fine_.width() && e.to >= w.last_column - 0.5) ||
-               (shown.first > 0 && e.first_row == shown.first) ||
-               (w.last_row <= fine_.height() && e.last_row + 1 == shown.end());
+        return judge(wanted_, specks_, t, w, TextureRows(t, w, per_texel_).take());
     }
 
     const ThresholdCells& fine_;
     const SilhouetteParts& wanted_;
+    const Specks& specks_;
     std::uint32_t per_texel_;
     MidGreys greys_;
     std::vector<std::uint8_t>& values_;
@@ -448,10 +508,12 @@ PartCounts count_parts(const Silhouette& silhouette, const fetex::BilevelTexture
     const ScannedOutline scanned(silhouette, outline, texture.width, texture.height, per_texel);
     const SilhouetteParts wanted(scanned, outline);
     const Texture t{texture.texels, texture.width, texture.height, texture.rule};
-    const Difference found = difference(wanted, texture_rows(t, per_texel, threads));
-    PartCounts out{wanted.parts, found.lost.size() + wanted.unmet.size(), found.invented.size()};
-    if (!found.lost.empty()) {
-        const PartExtent& e = found.lost[0].second;
+    const Specks specks(outline, texture.height, per_texel);
+    const Shown found = judge(wanted, specks, t, t.everything(), texture_rows(t, per_texel, threads));
+    const std::vector<PartExtent> lost = lost_parts(wanted, found.alive);
+    PartCounts out{wanted.parts, lost.size() + wanted.unmet.size(), found.invented.size()};
+    if (!lost.empty()) {
+        const PartExtent& e = lost[0];
         out.lost_x = (e.from + e.to) / 2, out.lost_y = (e.first_row + e.last_row + 1.0) / 2 / per_texel;
     } else if (!wanted.unmet.empty()) {
         out.lost_x = outline[wanted.unmet[0]].x0, out.lost_y = outline[wanted.unmet[0]].y0;
@@ -462,7 +524,8 @@ PartCounts count_parts(const Silhouette& silhouette, const fetex::BilevelTexture
 std::uint64_t mend_parts(const ThresholdCells& fine, const ScannedOutline& finest,
                          std::span<const OutlineSegment> outline, MidGreys greys, std::vector<std::uint8_t>& values) {
     const SilhouetteParts wanted(finest, outline);
-    return Mender(fine, wanted, finest.rows().per_texel(), greys, values).run();
+    const Specks specks(outline, fine.height(), finest.rows().per_texel());
+    return Mender(fine, wanted, specks, finest.rows().per_texel(), greys, values).run();
 }
 
 } // namespace fetexc

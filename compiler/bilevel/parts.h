@@ -22,14 +22,15 @@ struct PartCounts {
 
 /// Parts are exact along `per_texel` rows a texel. The silhouette's are followed along its outline from row to row, and
 /// each closed piece of it that no row meets is a part that is lost. The texture's are followed where they overlap in
-/// neighbouring rows; what shows in one row alone counts for nothing.
+/// neighbouring rows; what shows in one row alone is looked at closer, along 257 rows a texel. With an odd number of
+/// rows one goes through each texel's centre, so no invented part of one channel is missed: its values are largest, or
+/// least, at a centre.
 PartCounts count_parts(const Silhouette& silhouette, const fetex::BilevelTexture& texture, std::uint32_t per_texel,
                        unsigned threads);
 
 /// Changes single bytes so that fewer parts are invented, or more of those that are lost show, each by whichever change
-/// gets the least area wrong; a lost part shows only if that costs less than budget::kWorthAPart. fine: for the areas.
-/// Returns the bytes changed.
-std::uint64_t mend_parts(const ThresholdCells& fine, const ScannedOutline& finest,
+/// gets the least area wrong if that is no more than budget::kWorthAPart. fine: for the areas. Returns the changes.
+std::uint64_t mend_parts(const ThresholdCells& fine, const ScannedOutline& rows,
                          std::span<const OutlineSegment> outline, MidGreys greys, std::vector<std::uint8_t>& values);
 
 } // namespace fetexc

@@ -10,7 +10,7 @@
 namespace fetexc {
 namespace {
 
-constexpr std::uint32_t kRows = 64;
+constexpr std::uint32_t kRows = 65;
 
 Silhouette drawn(const std::vector<test::Path>& paths) { return silhouette_of(test::scene_of(paths), {}, 1).value(); }
 
@@ -63,6 +63,8 @@ TEST(BilevelParts, countsWhatIsInvented) {
     const PartCounts found = count_parts(drawn({test::box(400, 400, 500, 500)}), t, kRows, 1);
     EXPECT_EQ(found.invented, 2u);
     EXPECT_EQ(found.lost, 1u);
+    t.texels[20 * 32 + 20] = 128; // a hundredth
+    EXPECT_EQ(count_parts(drawn({test::box(400, 400, 500, 500)}), t, kRows, 1).invented, 2u);
 }
 
 /// Values beside an outline that make an island for next to no area.
