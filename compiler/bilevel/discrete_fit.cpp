@@ -52,6 +52,21 @@ class ByteFit {
         return busy;
     }
 
+    /// Every byte goes away from one half as far as that costs no area: what doesn't show is no ridge just below it,
+    /// which soft cuts would show.
+    void settle() {
+        for (const std::uint32_t t : cells_.texels()) {
+            for (std::uint32_t c = 0; c < cells_.channels(); ++c) {
+                const Place p = place(t, c);
+                const int away = values_[p.value] < 128 ? -1 : 1;
+                for (int step = kLargestStep; step > 0; step /= 4) {
+                    while (stays_right(p, away * step)) {
+                    }
+                }
+            }
+        }
+    }
+
     std::uint64_t tried = 0;
 
   private:
@@ -215,6 +230,28 @@ class ByteFit {
         return true;
     }
 
+    /// Moves a byte if that makes the wrong area no larger.
+    bool stays_right(const Place& p, int by) {
+        std::uint8_t& v = values_[p.value];
+        const std::uint8_t before = v;
+        v = moved(v, by, greys_);
+        if (v == before) return false;
+        ++tried;
+        std::array<double, 4> area;
+        double change = 0;
+        for (std::size_t k = 0; k < p.cells.size(); ++k) {
+            area[k] = area_in(p.cells[k]);
+            change += area[k] - areas_[p.cells[k]];
+        }
+        if (change > budget::kWorthAByte) {
+            v = before;
+            return false;
+        }
+        for (std::size_t k = 0; k < p.cells.size(); ++k)
+            areas_[p.cells[k]] = area[k];
+        return true;
+    }
+
     void open_around(std::uint32_t texel, std::uint32_t channel) {
         const std::uint32_t w = cells_.width(), i = texel % w, j = texel / w;
         for (std::uint32_t y = j == 0 ? 0 : j - 1; y <= std::min(j + 1, cells_.height() - 1); ++y) {
@@ -256,6 +293,10 @@ std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& 
     for (int k = 0, pairs = 0; k < sweeps.most && busy; ++k) {
         busy = fit.sweep();
         if (!busy && pairs < sweeps.pairs) ++pairs, busy = fit.sweep_pairs();
+        trace.push_back(fit.wrong_area());
+    }
+    if (sweeps.pairs > 0) {
+        fit.settle();
         trace.push_back(fit.wrong_area());
     }
     return fit.tried;

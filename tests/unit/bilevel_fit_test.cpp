@@ -51,7 +51,7 @@ BilevelBuild fit(const Silhouette& s, GridSize size, std::uint32_t channels) {
 /// Part of the points that the texture has on the wrong side, through the reference sampler. Independent of the fit's
 /// scan lines but for the outline.
 double wrong_points(const Silhouette& s, const fetex::BilevelTexture& t) {
-    constexpr std::uint32_t kPoints = 1024;
+    constexpr std::uint32_t kPoints = 2048;
     const ScannedOutline truth(s, outline_in_texels(s, kPoints, kPoints), kPoints, kPoints, 2);
     std::size_t wrong = 0;
     for (std::uint32_t y = 0; y < kPoints; ++y) {
@@ -125,7 +125,7 @@ TEST(BilevelFit, reportsWhatTheSamplerShows) {
     const Silhouette s = shape("glyph_g");
     for (const std::uint32_t channels : {1u, 2u, 3u}) {
         const BilevelBuild b = fit(s, {40, 40}, channels);
-        EXPECT_NEAR(wrong_points(s, b.texture) * 1e6, b.stats.fits[0].wrong * 1e6, 60) << channels; // of 10^6 points
+        EXPECT_NEAR(wrong_points(s, b.texture) * 1e6, b.stats.fits[0].wrong * 1e6, 60) << channels;
         EXPECT_LE(b.stats.fits[0].trace.back(), b.stats.fits[0].trace.front() * 1.0001);
     }
 }
