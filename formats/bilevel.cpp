@@ -6,41 +6,12 @@
 #include <cmath>
 
 #include "formats/fbt_mip.h"
+#include "formats/interpolation.h"
 
 namespace fetex {
 namespace {
 
 constexpr double kThreshold = 0.5;
-
-FbtColor mix(const FbtColor& a, const FbtColor& b, double t) {
-    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
-}
-
-FbtColor color_of(std::uint32_t rgba8) {
-    const auto channel = [&](unsigned shift) { return static_cast<double>(rgba8 >> shift & 0xffu) / 255; };
-    return {channel(0), channel(8), channel(16), channel(24)};
-}
-
-/// The two samples around a position along an axis, those at the border repeated, and how far it is from the first to
-/// the second. Sample i stands at i + 1/2.
-struct Neighbours {
-    std::uint32_t first = 0, second = 0;
-    double weight = 0;
-
-    /// local: offset from the left side of sample i, 0…1.
-    static Neighbours around(std::uint32_t i, double local, std::uint32_t samples) {
-        if (local < 0.5) return {i > 0 ? i - 1 : 0, i, local + 0.5};
-        return {i, std::min(i + 1, samples - 1), local - 0.5};
-    }
-    /// position: 0 … samples.
-    static Neighbours around(double position, std::uint32_t samples) {
-        const auto i = std::min(static_cast<std::uint32_t>(position), samples - 1);
-        return around(i, position - i, samples);
-    }
-};
-
-/// NaN becomes 0.
-double clamp_to(double v, double most) { return v > 0 ? std::min(v, most) : 0.0; }
 
 BilevelValue channel_value(const BilevelTexture& t, std::uint32_t channel, const Neighbours& column,
                            const Neighbours& row) {
@@ -83,15 +54,9 @@ BilevelValue value_between(const BilevelTexture& t, const Neighbours& column, co
 /// The colour above at a point of the texture.
 FbtColor color_above(const BilevelTexture& t, double x, double y) {
     if (t.image.empty()) return color_of(t.above);
-    const auto column = Neighbours::around(x / t.width * t.image_width, t.image_width),
-               row = Neighbours::around(y / t.height * t.image_height, t.image_height);
-    const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        return color_of(t.image[std::size_t{j} * t.image_width + i]);
-    };
-    const auto along_row = [&](std::uint32_t j) {
-        return mix(at(column.first, j), at(column.second, j), column.weight);
-    };
-    return mix(along_row(row.first), along_row(row.second), row.weight);
+    return interpolated(
+        Neighbours::around(x, t.width, t.image_width), Neighbours::around(y, t.height, t.image_height),
+        [&](std::uint32_t i, std::uint32_t j) { return color_of(t.image[std::size_t{j} * t.image_width + i]); });
 }
 
 FbtColor color_of_coverage(const BilevelTexture& t, double coverage, double x, double y) {
@@ -103,15 +68,6 @@ std::pair<std::uint32_t, double> texel_and_local(double v, std::uint32_t size) {
     const double clamped = clamp_to(v, size);
     const auto i = std::min(static_cast<std::uint32_t>(clamped), size - 1);
     return {i, clamped - i};
-}
-
-/// The coarsest level whose scale is at most `side`; 0 if there is none. Scales lie from 2^k to below 2^(k+1).
-std::uint32_t finer_level(const BilevelTexture& t, double side) {
-    const std::uint32_t n = fbt_mip_levels(t.width, t.height);
-    std::uint32_t k = 0;
-    while (k < n && fbt_mip_scale(t.width, t.height, k + 1) <= side)
-        ++k;
-    return k;
 }
 
 } // namespace
@@ -171,8 +127,8 @@ FbtColor bilevel_sample_local(const BilevelTexture& texture, std::uint32_t i, st
 
 double bilevel_mip_coverage(const BilevelTexture& texture, std::uint32_t k, double x, double y) {
     const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
-    const auto column = Neighbours::around(clamp_to(x / texture.width, 1) * level.width, level.width),
-               row = Neighbours::around(clamp_to(y / texture.height, 1) * level.height, level.height);
+    const auto column = Neighbours::around(x, texture.width, level.width),
+               row = Neighbours::around(y, texture.height, level.height);
     const auto at = [&](std::uint32_t i, std::uint32_t j) {
         return texture.mips[level.first + std::uint64_t{j} * level.width + i] / 255.0;
     };
@@ -181,16 +137,10 @@ double bilevel_mip_coverage(const BilevelTexture& texture, std::uint32_t k, doub
 }
 
 FbtColor bilevel_sample_mip(const BilevelTexture& texture, double x, double y, BilevelPixel pixel) {
-    const double side = std::max({0.0, pixel.width, pixel.height});
-    const std::uint32_t n = fbt_mip_levels(texture.width, texture.height), k = finer_level(texture, side);
+    const auto [k, part] = fbt_mip_place(texture.width, texture.height, std::max({0.0, pixel.width, pixel.height}));
     double coverage =
         k == 0 ? bilevel_coverage(bilevel_value(texture, x, y), pixel) : bilevel_mip_coverage(texture, k, x, y);
-    const double from = fbt_mip_scale(texture.width, texture.height, k);
-    if (k < n && side > from) {
-        const double part =
-            std::log(side / from) / std::log(fbt_mip_scale(texture.width, texture.height, k + 1) / from);
-        coverage = std::lerp(coverage, bilevel_mip_coverage(texture, k + 1, x, y), part * part);
-    }
+    if (part > 0) coverage = std::lerp(coverage, bilevel_mip_coverage(texture, k + 1, x, y), part * part);
     return color_of_coverage(texture, coverage, clamp_to(x, texture.width), clamp_to(y, texture.height));
 }
 

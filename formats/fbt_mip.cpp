@@ -6,57 +6,24 @@
 #include <bit>
 #include <cmath>
 
+#include "formats/interpolation.h"
+
 namespace fetex {
 namespace {
 
 /// Taps: a ratio of sides halfway between two numbers gives the lower one, in float as in double.
 constexpr double kTapSlack = 0x1p-10;
 
-FbtColor mix(const FbtColor& a, const FbtColor& b, double t) {
-    return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), a.a + t * (b.a - a.a)};
-}
-
-FbtColor color_of(std::uint32_t rgba8) {
-    const auto channel = [&](unsigned shift) { return static_cast<double>(rgba8 >> shift & 0xffu) / 255; };
-    return {channel(0), channel(8), channel(16), channel(24)};
-}
-
-/// The two samples around a position along one axis of a level, and how far it is from the first to the second.
-struct Neighbours {
-    std::uint32_t first = 0, second = 0;
-    double weight = 0;
-    Neighbours(double position, std::uint32_t texels, std::uint32_t samples) {
-        const double part = position > 0 ? std::min(position / texels, 1.0) : 0.0; // NaN becomes 0
-        const double at = part * samples - 0.5;
-        const double floor = std::floor(at);
-        const auto clamped = [&](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, samples - 1.0)); };
-        first = clamped(floor), second = clamped(floor + 1), weight = at - floor;
-    }
-};
-
 FbtColor sample_level(const FbtTexture& t, double x, double y, std::uint32_t k) {
     const FbtMipLevel level = fbt_mip_level(t.width, t.height, k);
-    const Neighbours column(x, t.width, level.width), row(y, t.height, level.height);
-    const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        return color_of(t.mips[level.first + std::uint64_t{j} * level.width + i]);
-    };
-    const auto along_row = [&](std::uint32_t j) {
-        return mix(at(column.first, j), at(column.second, j), column.weight);
-    };
-    return mix(along_row(row.first), along_row(row.second), row.weight);
+    return interpolated(Neighbours::around(x, t.width, level.width), Neighbours::around(y, t.height, level.height),
+                        [&](std::uint32_t i, std::uint32_t j) {
+                            return color_of(t.mips[level.first + std::uint64_t{j} * level.width + i]);
+                        });
 }
 
 FbtColor sample_square(const FbtTexture& t, double x, double y, double side, bool exact) {
     return side > 0 ? fbt_sample_area(t, x, y, {side / 2, side / 2, exact}) : fbt_sample(t, x, y);
-}
-
-/// The coarsest level whose scale is at most texels_per_pixel; 0 if there is none. Scales lie from 2^k to below
-/// 2^(k+1).
-std::uint32_t finer_level(const FbtTexture& t, double texels_per_pixel) {
-    const std::uint32_t n = fbt_mip_levels(t.width, t.height);
-    if (!(texels_per_pixel < fbt_mip_scale(t.width, t.height, n))) return n;
-    const auto k = static_cast<std::uint32_t>(std::max(std::floor(std::log2(texels_per_pixel)), 0.0));
-    return k > 0 && fbt_mip_scale(t.width, t.height, k) > texels_per_pixel ? k - 1 : k;
 }
 
 } // namespace
@@ -85,16 +52,22 @@ double fbt_mip_scale(std::uint32_t width, std::uint32_t height, std::uint32_t k)
     return std::max(static_cast<double>(width) / level.width, static_cast<double>(height) / level.height);
 }
 
+FbtMipPlace fbt_mip_place(std::uint32_t width, std::uint32_t height, double side) {
+    const std::uint32_t n = fbt_mip_levels(width, height);
+    if (!(side < fbt_mip_scale(width, height, n))) return {n, 0};
+    auto k = static_cast<std::uint32_t>(std::max(std::floor(std::log2(side)), 0.0));
+    if (k > 0 && fbt_mip_scale(width, height, k) > side) --k;
+    const double from = fbt_mip_scale(width, height, k);
+    if (side <= from) return {k, 0};
+    return {k, std::log(side / from) / std::log(fbt_mip_scale(width, height, k + 1) / from)};
+}
+
 FbtColor fbt_sample_mip(const FbtTexture& texture, double x, double y, double texels_per_pixel, bool exact) {
     const double side = texels_per_pixel > 0 ? texels_per_pixel : 0.0; // NaN becomes 0
-    const std::uint32_t n = fbt_mip_levels(texture.width, texture.height), k = finer_level(texture, side);
+    const auto [k, part] = fbt_mip_place(texture.width, texture.height, side);
     const FbtColor fine =
         k == 0 ? sample_square(texture, x, y, std::min(side, 1.0), exact) : sample_level(texture, x, y, k);
-    if (k == n) return fine;
-    const double from = fbt_mip_scale(texture.width, texture.height, k),
-                 to = fbt_mip_scale(texture.width, texture.height, k + 1);
-    if (side <= from) return fine;
-    return mix(fine, sample_level(texture, x, y, k + 1), std::log(side / from) / std::log(to / from));
+    return part > 0 ? mix(fine, sample_level(texture, x, y, k + 1), part) : fine;
 }
 
 FbtColor fbt_sample_mip_aniso(const FbtTexture& texture, double x, double y, FbtVector dx, FbtVector dy, bool exact) {

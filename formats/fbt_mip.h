@@ -27,6 +27,15 @@ std::uint64_t fbt_mip_samples(std::uint32_t width, std::uint32_t height);
 /// others (less than 2^k only in a texture of one texel).
 double fbt_mip_scale(std::uint32_t width, std::uint32_t height, std::uint32_t k);
 
+/// Where the side of a pixel lies among the scales of the levels.
+struct FbtMipPlace {
+    std::uint32_t level = 0; ///< the coarsest of which the scale is at most the side; 0 if none is
+    double part =
+        0; ///< how far its logarithm is from that scale to the next, 0 … 1; 0 below level 0's and at the last level
+};
+/// side: texels, not NaN.
+FbtMipPlace fbt_mip_place(std::uint32_t width, std::uint32_t height, double side);
+
 /// A displacement in texels.
 struct FbtVector {
     double x = 0, y = 0;
