@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // Bi-level textures (Loviscach): a small grey texture, interpolated and cut at 1/2. Semantics: formats/SPEC.md, section 6;
-// the same in double: formats/bilevel.cpp. Goes after a prelude.
+// the same in double: formats/bilevel.cpp. Goes after a prelude and fetex_levels.glsl.
 //
 //   vec4 fetexBilevelSample(vec2 uv)                                  hard
 //   vec4 fetexBilevelSampleTexel(ivec2 base, vec2 local)              the same point as texel and offset in [0,1): deep zoom
@@ -175,13 +175,7 @@ vec4 fetexBilevelAbove(ivec2 base, vec2 local) {
 #if FETEX_BILEVEL_IMAGE && FETEX_BILEVEL_FILTERED
     return textureLod(fetexBilevelImage, (vec2(base) + local) / vec2(fetexBilevelSize()), 0.0);
 #elif FETEX_BILEVEL_IMAGE
-    ivec2 last = textureSize(fetexBilevelImage, 0) - 1;
-    vec2 uv = clamp((vec2(base) + local) / vec2(fetexBilevelSize()), 0.0, 1.0);
-    vec2 at = uv * vec2(last + 1) - 0.5, whole = floor(at), weight = at - whole;
-    ivec2 a = clamp(ivec2(whole), ivec2(0), last), b = clamp(ivec2(whole) + 1, ivec2(0), last);
-    vec4 upper = mix(texelFetch(fetexBilevelImage, a, 0), texelFetch(fetexBilevelImage, ivec2(b.x, a.y), 0), weight.x);
-    vec4 lower = mix(texelFetch(fetexBilevelImage, ivec2(a.x, b.y), 0), texelFetch(fetexBilevelImage, b, 0), weight.x);
-    return mix(upper, lower, weight.y);
+    return fetexBilinear(fetexBilevelImage, (vec2(base) + local) / vec2(fetexBilevelSize()), 0, textureSize(fetexBilevelImage, 0));
 #else
     return FETEX_BILEVEL_ABOVE;
 #endif
@@ -229,43 +223,16 @@ vec4 fetexBilevelSampleArea(vec2 uv, vec2 pixel) {
 }
 
 #if FETEX_BILEVEL_MIPS
-// Rounded down, exactly; for v > 0.
-int fetexBilevelLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }
-
-ivec2 fetexBilevelMipSize(int level) { return max(fetexBilevelSize() >> level, ivec2(1)); }
-
-// Texels across a sample of a level, in the direction that has more.
-float fetexBilevelMipScale(int level) {
-    vec2 scale = vec2(fetexBilevelSize()) / vec2(fetexBilevelMipSize(level));
-    return max(scale.x, scale.y);
-}
-
 float fetexBilevelMipLevel(vec2 uv, int level) {
-    ivec2 last = fetexBilevelMipSize(level) - 1;
-    vec2 at = clamp(uv, 0.0, 1.0) * vec2(last + 1) - 0.5;
-    vec2 whole = floor(at), weight = at - whole;
-    ivec2 a = clamp(ivec2(whole), ivec2(0), last), b = clamp(ivec2(whole) + 1, ivec2(0), last);
-    vec4 four = vec4(texelFetch(fetexBilevelMips, a, level - 1).r, texelFetch(fetexBilevelMips, ivec2(b.x, a.y), level - 1).r,
-                     texelFetch(fetexBilevelMips, ivec2(a.x, b.y), level - 1).r, texelFetch(fetexBilevelMips, b, level - 1).r);
-    vec2 rows = mix(four.xz, four.yw, weight.x);
-    return mix(rows.x, rows.y, weight.y);
+    return fetexBilinear(fetexBilevelMips, uv, level - 1, fetexLevelSize(fetexBilevelSize(), level)).r;
 }
 
 vec4 fetexBilevelSampleMipTexel(ivec2 base, vec2 local, vec2 pixel) {
-    ivec2 size = fetexBilevelSize();
-    int levels = max(fetexBilevelLog2(float(max(size.x, size.y))), 1);
-    float side = max(max(pixel.x, pixel.y), 0.0);
-    // The coarsest level that isn't coarser than the pixel; scales lie from 2^k to below 2^(k+1).
-    int level = min(fetexBilevelLog2(max(side, 1.0)), levels);
-    if (fetexBilevelMipScale(level) > side) level = max(level - 1, 0);
-    if (side >= fetexBilevelMipScale(levels)) level = levels;
-    vec2 uv = (vec2(base) + local) / vec2(size);
+    vec2 uv = (vec2(base) + local) / vec2(fetexBilevelSize());
+    float part;
+    int level = fetexLevel(fetexBilevelSize(), max(pixel.x, pixel.y), part);
     float coverage = level > 0 ? fetexBilevelMipLevel(uv, level) : fetexBilevelCoverageTexel(base, local, pixel);
-    float from = fetexBilevelMipScale(level), to = fetexBilevelMipScale(min(level + 1, levels));
-    if (level < levels && side > from) {
-        float part = log2(side / from) / log2(to / from);
-        coverage = mix(coverage, fetexBilevelMipLevel(uv, level + 1), part * part);
-    }
+    if (part > 0.0) coverage = mix(coverage, fetexBilevelMipLevel(uv, level + 1), part * part);
     return fetexBilevelColor(coverage, base, local);
 }
 

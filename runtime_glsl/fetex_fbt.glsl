@@ -72,9 +72,11 @@ float fetexFbtChannel(uint bits) {
 float fetexFbtChannel(uint bits) { return float(bits) * (1.0 / 65535.0); }
 #endif
 
+// A sample of the models corners and patch, its words in what a fetch returns, and its colour.
 #if FETEX_FBT_SAMPLES != 0
-// A sample of two words.
-vec4 fetexFbtWideColor(uvec2 words) {
+#define FETEX_FBT_SAMPLE uvec2
+#define FETEX_FBT_SAMPLE_WORDS xy
+vec4 fetexFbtSampleColor(uvec2 words) {
     vec3 color = vec3(fetexFbtChannel(words.x & 0xffffu), fetexFbtChannel(words.x >> 16u), fetexFbtChannel(words.y & 0xffffu));
 #if FETEX_FBT_TRANSLUCENT
     return vec4(color, fetexFbtChannel(words.y >> 16u));
@@ -82,6 +84,10 @@ vec4 fetexFbtWideColor(uvec2 words) {
     return vec4(color, 1.0);
 #endif
 }
+#else
+#define FETEX_FBT_SAMPLE uint
+#define FETEX_FBT_SAMPLE_WORDS x
+vec4 fetexFbtSampleColor(uint word) { return fetexFbtColor(word); }
 #endif
 
 #if FETEX_FBT_FEATURES || FETEX_FBT_PATCHES
@@ -347,40 +353,28 @@ uvec2 fetexFbtFindRegion(uint index, vec2 local) {
 vec4 fetexFbtShade(ivec2 base, vec2 local, uvec2 region) {
 #if FETEX_FBT_CORNERS || FETEX_FBT_PATCHES
     if (region.x != 0u) {
-#if FETEX_FBT_SAMPLES != 0
-        uvec4 above = uvec4(0u), below = uvec4(0u); // two samples each
+        FETEX_FBT_SAMPLE upperLeft = FETEX_FBT_SAMPLE(0u), upperRight = upperLeft, lowerLeft = upperLeft, lowerRight = upperLeft;
 #if FETEX_FBT_PATCHES
         if (region.x == 2u) {
-            above = fetexFbtRecord(region.y);
-            below = fetexFbtRecord(region.y + 1u);
-        }
-#endif
-#if FETEX_FBT_CORNERS
-        if (region.x == 1u) {
-            above.xy = texelFetch(fetexFbtCorners, base, 0).xy;
-            above.zw = texelFetch(fetexFbtCorners, base + ivec2(1, 0), 0).xy;
-            below.xy = texelFetch(fetexFbtCorners, base + ivec2(0, 1), 0).xy;
-            below.zw = texelFetch(fetexFbtCorners, base + ivec2(1, 1), 0).xy;
-        }
-#endif
-        vec4 upper = mix(fetexFbtWideColor(above.xy), fetexFbtWideColor(above.zw), local.x);
-        vec4 lower = mix(fetexFbtWideColor(below.xy), fetexFbtWideColor(below.zw), local.x);
+            uvec4 record = fetexFbtRecord(region.y);
+#if FETEX_FBT_SAMPLES != 0
+            uvec4 second = fetexFbtRecord(region.y + 1u);
+            upperLeft = record.xy, upperRight = record.zw, lowerLeft = second.xy, lowerRight = second.zw;
 #else
-        uvec4 samples = uvec4(0u);
-#if FETEX_FBT_PATCHES
-        if (region.x == 2u) samples = fetexFbtRecord(region.y);
+            upperLeft = record.x, upperRight = record.y, lowerLeft = record.z, lowerRight = record.w;
+#endif
+        }
 #endif
 #if FETEX_FBT_CORNERS
         if (region.x == 1u) {
-            samples.x = texelFetch(fetexFbtCorners, base, 0).x;
-            samples.y = texelFetch(fetexFbtCorners, base + ivec2(1, 0), 0).x;
-            samples.z = texelFetch(fetexFbtCorners, base + ivec2(0, 1), 0).x;
-            samples.w = texelFetch(fetexFbtCorners, base + ivec2(1, 1), 0).x;
+            upperLeft = texelFetch(fetexFbtCorners, base, 0).FETEX_FBT_SAMPLE_WORDS;
+            upperRight = texelFetch(fetexFbtCorners, base + ivec2(1, 0), 0).FETEX_FBT_SAMPLE_WORDS;
+            lowerLeft = texelFetch(fetexFbtCorners, base + ivec2(0, 1), 0).FETEX_FBT_SAMPLE_WORDS;
+            lowerRight = texelFetch(fetexFbtCorners, base + ivec2(1, 1), 0).FETEX_FBT_SAMPLE_WORDS;
         }
 #endif
-        vec4 upper = mix(fetexFbtColor(samples.x), fetexFbtColor(samples.y), local.x);
-        vec4 lower = mix(fetexFbtColor(samples.z), fetexFbtColor(samples.w), local.x);
-#endif
+        vec4 upper = mix(fetexFbtSampleColor(upperLeft), fetexFbtSampleColor(upperRight), local.x);
+        vec4 lower = mix(fetexFbtSampleColor(lowerLeft), fetexFbtSampleColor(lowerRight), local.x);
         return mix(upper, lower, local.y);
     }
 #endif

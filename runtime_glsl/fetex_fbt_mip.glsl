@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // The mip chain of a feature-based texture: views with more than one texel a pixel. Semantics: formats/SPEC.md, section
-// 4.2; the same in double: formats/fbt_mip.cpp. Goes after fetex_fbt.glsl and fetex_fbt_area.glsl, for textures that have
-// a chain.
+// 4.2; the same in double: formats/fbt_mip.cpp. Goes after fetex_fbt.glsl, fetex_fbt_area.glsl and
+// fetex_levels.glsl, for textures that have a chain.
 //
 //   vec4 fetexFbtSampleMip(vec2 uv, float texelsPerPixel)                       a square pixel
 //   vec4 fetexFbtSampleMipAniso(vec2 uv, vec2 dx, vec2 dy)                      uv from pixel to pixel (dFdx, dFdy)
@@ -17,26 +17,8 @@ FETEX_UNIFORM(3) highp sampler2D fetexFbtMips;
 
 const int fetexFbtMipMaxTaps = 8;
 
-// Rounded down, exactly; for v > 0.
-int fetexFbtLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }
-
-ivec2 fetexFbtMipSize(int level) { return max(fetexFbtSize() >> level, ivec2(1)); }
-
-// Texels across a sample of a level, in the direction that has more.
-float fetexFbtMipScale(int level) {
-    vec2 scale = vec2(fetexFbtSize()) / vec2(fetexFbtMipSize(level));
-    return max(scale.x, scale.y);
-}
-
-// Samples stand in the middle of what they are the mean of.
 vec4 fetexFbtMipLevel(vec2 uv, int level) {
-    ivec2 last = fetexFbtMipSize(level) - 1;
-    vec2 at = clamp(uv, 0.0, 1.0) * vec2(last + 1) - 0.5;
-    vec2 whole = floor(at), weight = at - whole;
-    ivec2 a = clamp(ivec2(whole), ivec2(0), last), b = clamp(ivec2(whole) + 1, ivec2(0), last);
-    vec4 upper = mix(texelFetch(fetexFbtMips, a, level - 1), texelFetch(fetexFbtMips, ivec2(b.x, a.y), level - 1), weight.x);
-    vec4 lower = mix(texelFetch(fetexFbtMips, ivec2(a.x, b.y), level - 1), texelFetch(fetexFbtMips, b, level - 1), weight.x);
-    return mix(upper, lower, weight.y);
+    return fetexBilinear(fetexFbtMips, uv, level - 1, fetexLevelSize(fetexFbtSize(), level));
 }
 
 // Mean over a square of so many texels around a position, which may lie beyond the texture.
@@ -47,18 +29,11 @@ vec4 fetexFbtBox(ivec2 base, vec2 local, float side) {
 }
 
 vec4 fetexFbtSampleMipTexel(ivec2 base, vec2 local, float texelsPerPixel) {
-    ivec2 size = fetexFbtSize();
-    int levels = max(fetexFbtLog2(float(max(size.x, size.y))), 1);
-    float side = max(texelsPerPixel, 0.0);
-    // The coarsest level that isn't coarser than the pixel; scales lie from 2^k to below 2^(k+1).
-    int level = min(fetexFbtLog2(max(side, 1.0)), levels);
-    if (fetexFbtMipScale(level) > side) level = max(level - 1, 0);
-    if (side >= fetexFbtMipScale(levels)) level = levels;
-    vec2 uv = (vec2(base) + local) / vec2(size);
+    float side = max(texelsPerPixel, 0.0), part;
+    int level = fetexLevel(fetexFbtSize(), side, part);
+    vec2 uv = (vec2(base) + local) / vec2(fetexFbtSize());
     vec4 fine = level > 0 ? fetexFbtMipLevel(uv, level) : fetexFbtBox(base, local, min(side, 1.0));
-    float from = fetexFbtMipScale(level), to = fetexFbtMipScale(min(level + 1, levels));
-    if (level == levels || side <= from) return fine;
-    return mix(fine, fetexFbtMipLevel(uv, level + 1), log2(side / from) / log2(to / from));
+    return part > 0.0 ? mix(fine, fetexFbtMipLevel(uv, level + 1), part) : fine;
 }
 
 vec4 fetexFbtSampleMip(vec2 uv, float texelsPerPixel) {

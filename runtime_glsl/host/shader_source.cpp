@@ -43,7 +43,8 @@ std::string features_source(Dialect dialect, const FbtTexture& texture, bool tex
 /// With the mip chain, which needs area sampling.
 std::string mip_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer, Filter filter) {
     const Filter fine = filter == Filter::Area ? Filter::Area : Filter::ExactArea;
-    return features_source(dialect, texture, texture_buffer, fine) + file_text("fetex_fbt_mip.glsl");
+    return features_source(dialect, texture, texture_buffer, fine) + file_text("fetex_levels.glsl") +
+           file_text("fetex_fbt_mip.glsl");
 }
 
 std::string vec4_of(double r, double g, double b, double a) {
@@ -114,7 +115,8 @@ std::string bilevel_specialisation(const BilevelTexture& texture, bool filtered)
 }
 
 std::string bilevel_library_source(Dialect dialect, const BilevelTexture& texture, bool filtered) {
-    return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) + file_text("fetex_bilevel.glsl");
+    return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) + file_text("fetex_levels.glsl") +
+           file_text("fetex_bilevel.glsl");
 }
 
 namespace {
@@ -124,7 +126,7 @@ std::string bilevel_source(Dialect dialect, const BilevelTexture& texture, bool 
     return shader_prelude(dialect) + bilevel_specialisation(texture, filtered) +
            define("FETEX_BILEVEL_DERIVATIVES(t)", "(vec2(dFdx(t), dFdy(t)) / float(fetexSupersample))") +
            (footprint ? define("FETEX_VIEW_FOOTPRINT", 1) : "") + file_text("view.glsl") +
-           file_text("fetex_bilevel.glsl");
+           file_text("fetex_levels.glsl") + file_text("fetex_bilevel.glsl");
 }
 
 } // namespace

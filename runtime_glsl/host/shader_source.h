@@ -29,7 +29,7 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 std::string fbt_specialisation(const FbtTraits& traits, FbtSampleFormat format = FbtSampleFormat::Rgba8);
 
 /// Prelude, specialisation, fetex_fbt.glsl and, to be followed by a fragment shader: for area sampling
-/// fetex_fbt_area.glsl; if the texture has a mip chain, that and fetex_fbt_mip.glsl, whose level 0 then is exact unless
+/// fetex_fbt_area.glsl; if the texture has a mip chain, that, fetex_levels.glsl and fetex_fbt_mip.glsl, whose level 0 then is exact unless
 /// the filter is Area. Only the traits and the sample format of the texture are looked at,
 /// and whether it has a chain.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
@@ -40,7 +40,7 @@ std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool 
 /// image.
 std::string bilevel_specialisation(const BilevelTexture& texture, bool filtered = false);
 
-/// Prelude, specialisation and fetex_bilevel.glsl, to be followed by a fragment shader.
+/// Prelude, specialisation, fetex_levels.glsl and fetex_bilevel.glsl, to be followed by a fragment shader.
 std::string bilevel_library_source(Dialect dialect, const BilevelTexture& texture, bool filtered = false);
 
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bi-level

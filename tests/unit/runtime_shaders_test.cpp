@@ -128,7 +128,7 @@ TEST_F(Shaders, compileWithNothingSpecialised) {
         "void main() { color = fetexFbtSample(uv) + fetexFbtSampleArea(uv, vec2(0.1))\n"
         "    + fetexFbtSampleMip(uv, 2.5) + fetexFbtSampleMipAniso(uv, dFdx(uv), dFdy(uv)); }\n";
     std::stringstream library;
-    for (const char* file : {"fetex_fbt.glsl", "fetex_fbt_area.glsl", "fetex_fbt_mip.glsl"})
+    for (const char* file : {"fetex_fbt.glsl", "fetex_fbt_area.glsl", "fetex_levels.glsl", "fetex_fbt_mip.glsl"})
         library << std::ifstream(root + file).rdbuf();
     for (const Dialect dialect : kDialects) {
         std::stringstream prelude;
@@ -200,7 +200,8 @@ TEST_F(Shaders, ofBilevelTexturesCompileByHand) {
         "void main() { color = fetexBilevelSample(uv) * fetexBilevelValue(uv) + fetexBilevelSampleArea(uv, vec2(0.1))\n"
         "#if FETEX_BILEVEL_MIPS\n    + fetexBilevelSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
     std::stringstream library;
-    library << std::ifstream(root + "fetex_bilevel.glsl").rdbuf();
+    for (const char* file : {"fetex_levels.glsl", "fetex_bilevel.glsl"})
+        library << std::ifstream(root + file).rdbuf();
     ASSERT_GT(library.str().size(), 5000u);
     for (const Dialect dialect : kDialects) {
         std::stringstream prelude;
