@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "formats/fbt_mip.h"
+
 namespace fetex {
 namespace {
 
@@ -79,6 +81,27 @@ GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal_format), static_cast<GLsizei>(width),
                   static_cast<GLsizei>(height), 0, format, type, data);
+    return texture;
+}
+
+GLuint make_mip_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
+                        std::uint32_t height, GLenum format, std::span<const std::uint8_t> levels) {
+    const std::uint32_t n = fbt_mip_levels(width, height);
+    const std::size_t sample_bytes = levels.size() / fbt_mip_samples(width, height);
+    GLuint texture = 0;
+    for (std::uint32_t k = 1; k <= n; ++k) {
+        const FbtMipLevel level = fbt_mip_level(width, height, k);
+        const std::uint8_t* samples = levels.data() + level.first * sample_bytes;
+        if (k == 1)
+            texture =
+                make_texture(gl, unit, internal_format, level.width, level.height, format, GL_UNSIGNED_BYTE, samples);
+        else
+            gl.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(k - 1), static_cast<GLint>(internal_format),
+                          static_cast<GLsizei>(level.width), static_cast<GLsizei>(level.height), 0, format,
+                          GL_UNSIGNED_BYTE, samples);
+    }
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(n - 1));
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST); // else level 0 is all there is
     return texture;
 }
 

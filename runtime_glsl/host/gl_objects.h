@@ -2,6 +2,7 @@
 /// Programs, textures and the render target. Internal to the host library; a context is current in every function.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "runtime_glsl/host/gl_context.h"
@@ -29,6 +30,11 @@ void delete_target(const GladGLContext& gl, Target& target);
 /// A 2D texture, NEAREST, clamped to its edges, without data; bound to the unit.
 GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
                     std::uint32_t height, GLenum format, GLenum type, const void* data);
+
+/// What a file has of levels 1 … n of a texture of width×height texels (formats/fbt_mip.h), as GL's levels 0 … n − 1;
+/// bytes for channels. NEAREST, clamped to its edges; bound to the unit.
+GLuint make_mip_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
+                        std::uint32_t height, GLenum format, std::span<const std::uint8_t> levels);
 
 /// The program's grid for a tile.
 void set_grid(const GladGLContext& gl, const Program& program, const AxisGrid& x, const AxisGrid& y,

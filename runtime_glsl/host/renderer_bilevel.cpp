@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/fbt_mip.h"
 #include "runtime_glsl/host/renderer_state.h"
 
 namespace fetex {
@@ -91,23 +90,6 @@ RuntimeStatus Renderer::State::need_bilevel_program(BilevelProgram kind) {
     return std::nullopt;
 }
 
-/// Level 1 of the file is GL's level 0.
-void Renderer::State::upload_bilevel_mips(const BilevelTexture& texture) {
-    const std::uint32_t levels = fbt_mip_levels(texture.width, texture.height);
-    for (std::uint32_t k = 1; k <= levels; ++k) {
-        const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
-        const std::uint8_t* coverage = texture.mips.data() + level.first;
-        if (k == 1)
-            bilevel.mips =
-                make_texture(gl(), kMipUnit, GL_R8, level.width, level.height, GL_RED, GL_UNSIGNED_BYTE, coverage);
-        else
-            gl().TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(k - 1), GL_R8, static_cast<GLsizei>(level.width),
-                            static_cast<GLsizei>(level.height), 0, GL_RED, GL_UNSIGNED_BYTE, coverage);
-    }
-    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels - 1));
-    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST); // else level 0 is all there is
-}
-
 RuntimeStatus Renderer::State::upload_bilevel(const BilevelTexture& texture, BilevelFetch fetch) {
     if (auto bad = check_bilevel(texture)) return bad;
     const BilevelTexture traits = traits_of(texture);
@@ -123,7 +105,8 @@ RuntimeStatus Renderer::State::upload_bilevel(const BilevelTexture& texture, Bil
     bilevel.texels = make_texture(gl(), kTexelUnit, format.internal_format, texture.width, texture.height,
                                   format.format, GL_UNSIGNED_BYTE, texture.texels.data());
     set_filter(gl(), filter);
-    if (!texture.mips.empty()) upload_bilevel_mips(texture);
+    if (!texture.mips.empty())
+        bilevel.mips = make_mip_texture(gl(), kMipUnit, GL_R8, texture.width, texture.height, GL_RED, texture.mips);
     if (!texture.image.empty()) {
         bilevel.image = make_texture(gl(), kImageUnit, GL_RGBA8, texture.image_width, texture.image_height, GL_RGBA,
                                      GL_UNSIGNED_BYTE, texture.image.data());

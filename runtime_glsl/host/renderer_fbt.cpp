@@ -2,7 +2,6 @@
 /// FBTs on the GPU: their textures, and the shaders that they need.
 #include <algorithm>
 
-#include "formats/fbt_mip.h"
 #include "runtime_glsl/host/renderer_state.h"
 
 namespace fetex {
@@ -75,23 +74,6 @@ void Renderer::State::upload_record_buffer(const FbtTexture& texture) {
     gl().TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32UI, record_buffer);
 }
 
-/// Level 1 of the chain is GL's level 0.
-void Renderer::State::upload_mips(const FbtTexture& texture) {
-    const std::uint32_t levels = fbt_mip_levels(texture.width, texture.height);
-    for (std::uint32_t k = 1; k <= levels; ++k) {
-        const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
-        const std::uint32_t* samples = texture.mips.data() + level.first;
-        if (k == 1)
-            mip_texture =
-                make_texture(gl(), kMipUnit, GL_RGBA8, level.width, level.height, GL_RGBA, GL_UNSIGNED_BYTE, samples);
-        else
-            gl().TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(k - 1), GL_RGBA8, static_cast<GLsizei>(level.width),
-                            static_cast<GLsizei>(level.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, samples);
-    }
-    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels - 1));
-    gl().TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST); // else level 0 is all there is
-}
-
 RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     if (auto bad = check_limits(texture)) return bad;
     FbtTexture traits;
@@ -117,7 +99,11 @@ RuntimeStatus Renderer::State::upload_fbt(const FbtTexture& texture) {
     } else {
         upload_records(texture);
     }
-    if (!texture.mips.empty()) upload_mips(texture);
+    if (!texture.mips.empty()) {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(texture.mips.data());
+        mip_texture = make_mip_texture(gl(), kMipUnit, GL_RGBA8, texture.width, texture.height, GL_RGBA,
+                                       {bytes, texture.mips.size() * 4});
+    }
     return gl_error(gl(), "uploading a texture");
 }
 

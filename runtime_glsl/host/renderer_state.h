@@ -54,7 +54,6 @@ struct Renderer::State {
     }
     void upload_records(const FbtTexture& texture);
     void upload_record_buffer(const FbtTexture& texture);
-    void upload_mips(const FbtTexture& texture);
     RuntimeStatus upload_fbt(const FbtTexture& texture);
     RuntimeStatus check_bilevel(const BilevelTexture& texture) const;
     void delete_bilevel();
@@ -63,7 +62,6 @@ struct Renderer::State {
     [[nodiscard]] const Program& bilevel_program(BilevelProgram kind) const {
         return bilevel.programs[static_cast<std::size_t>(kind)];
     }
-    void upload_bilevel_mips(const BilevelTexture& texture);
     RuntimeStatus upload_bilevel(const BilevelTexture& texture, BilevelFetch fetch);
     void bind_bilevel() const;
     Outcome<double> linear_filter_error();
