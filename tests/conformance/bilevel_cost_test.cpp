@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <optional>
 
-#include "runtime_glsl/host/sampler_cost.h"
+#include "tests/conformance/timing_fixture.h"
 #include "tests/support/random_bilevel.h"
 
 namespace fetexc::test {
@@ -16,22 +15,9 @@ using namespace fetex;
 /// Hard and soft cut, interpolated or filtered. Of the ratios of a busy machine a quarter must be below.
 constexpr double kOneChannel = 1.3, kMoreChannels = 1.6;
 
-class BilevelCosts : public testing::Test {
+class BilevelCosts : public TimingTest {
   protected:
-    void SetUp() override {
-        auto opened = open_for_timing();
-        if (!opened && opened.error().code == RuntimeErrc::BackendMissing) GTEST_SKIP() << opened.error().message;
-        ASSERT_TRUE(opened.ok()) << opened.error().message;
-        renderer_.emplace(std::move(opened.value()));
-        ASSERT_TRUE(renderer_->is_software()) << renderer_->description();
-    }
-    SamplerCost cost_of(Sampler sampler) {
-        const auto cost = sampler_cost(*renderer_, sampler, {.side = 256, .rounds = 21});
-        EXPECT_TRUE(cost.ok()) << cost.error().message;
-        return cost ? cost.value() : SamplerCost{};
-    }
-
-    std::optional<Renderer> renderer_;
+    SamplerCost cost_of(Sampler sampler) { return TimingTest::cost_of(sampler, {.side = 256, .rounds = 21}); }
 };
 
 TEST_F(BilevelCosts, stayNearThatOfAPlainLookup) {

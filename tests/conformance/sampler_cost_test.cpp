@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <optional>
 
 #include "formats/validate.h"
-#include "runtime_glsl/host/sampler_cost.h"
+#include "tests/conformance/timing_fixture.h"
 #include "tests/support/fbt_maker.h"
 
 namespace fetexc::test {
@@ -33,7 +32,8 @@ FbtTexture simple_texture(std::uint32_t degree, std::uint32_t percent) {
             const std::vector<std::uint32_t> points[3] = {
                 {fbt_pack_point(x, 0), fbt_pack_point(x + 0.2, 1)},
                 {fbt_pack_point(x, 0), fbt_pack_point(x, 0.5), fbt_pack_point(x + 0.2, 1)},
-                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.4), fbt_pack_point(x + 0.1, 0.8), fbt_pack_point(x + 0.2, 1)}};
+                {fbt_pack_point(x, 0), fbt_pack_point(x, 0.4), fbt_pack_point(x + 0.1, 0.8),
+                 fbt_pack_point(x + 0.2, 1)}};
             const MadeRun run{degree, kFbtRayPosX, 1, points[degree - 1], 0, true, corners};
             t.texels.push_back(kFbtKindSingle << 30 | append_list(t.records, {run}, corners));
         }
@@ -43,22 +43,9 @@ FbtTexture simple_texture(std::uint32_t degree, std::uint32_t percent) {
     return t;
 }
 
-class SamplerCosts : public testing::Test {
+class SamplerCosts : public TimingTest {
   protected:
-    void SetUp() override {
-        auto opened = open_for_timing();
-        if (!opened && opened.error().code == RuntimeErrc::BackendMissing) GTEST_SKIP() << opened.error().message;
-        ASSERT_TRUE(opened.ok()) << opened.error().message;
-        renderer_.emplace(std::move(opened.value()));
-        ASSERT_TRUE(renderer_->is_software()) << renderer_->description();
-    }
-    SamplerCost cost_of(Sampler sampler) {
-        const auto cost = sampler_cost(*renderer_, sampler, {.side = 256});
-        EXPECT_TRUE(cost.ok()) << cost.error().message;
-        return cost ? cost.value() : SamplerCost{};
-    }
-
-    std::optional<Renderer> renderer_;
+    SamplerCost cost_of(Sampler sampler) { return TimingTest::cost_of(sampler, {.side = 256}); }
 };
 
 TEST_F(SamplerCosts, fbtStaysAFewPlainLookups) {

@@ -36,6 +36,17 @@ def compile_file(fetexc, path, output, size, extra=()):
     return {"exit": done.returncode, "seconds": time.monotonic() - start, "report": report, "messages": messages}
 
 
+def output_of(args, limit):
+    """What a program prints within so many seconds, and "" (None where it fails, and why)."""
+    try:
+        done = subprocess.run(args, capture_output=True, text=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return None, f"over {limit} s"
+    if done.returncode != 0:
+        return None, done.stderr.strip() or f"exit {done.returncode}"
+    return done.stdout, ""
+
+
 def codes(messages):
     """Numbers of the diagnostics, each once, in order: E1203, W2001 …"""
     return list(dict.fromkeys(re.findall(r"\b(?:error|warning|note) ([EWN]\d{4})\b", messages)))

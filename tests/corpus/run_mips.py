@@ -8,7 +8,6 @@ asks for 45 dB. Exit 0: all are, 1: some aren't, or a file failed; 77: no corpus
 
 import argparse
 import pathlib
-import subprocess
 import sys
 
 import corpus
@@ -28,13 +27,8 @@ def chosen(folder, per_folder, only):
 
 def measure(program, path):
     """The four PSNRs, or why there are none."""
-    try:
-        done = subprocess.run([program, path, str(TEXELS)], capture_output=True, text=True, timeout=corpus.TIME_LIMIT * 2, check=False)
-    except subprocess.TimeoutExpired:
-        return None, "over the time limit"
-    if done.returncode != 0:
-        return None, done.stderr.strip() or f"exit {done.returncode}"
-    return [float(value) for value in done.stdout.split("\t")[5:9]], ""
+    printed, reason = corpus.output_of([program, path, str(TEXELS)], corpus.TIME_LIMIT * 2)
+    return [float(value) for value in printed.split("\t")[5:9]] if printed else None, reason
 
 
 def main():

@@ -10,7 +10,6 @@ import argparse
 import json
 import pathlib
 import statistics
-import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -28,16 +27,12 @@ def measure(fetexc, path, texels, folder):
     result = corpus.compile_file(fetexc, path, output, texels, ["-q"])
     if result["exit"] != 0:
         return None, " ".join(corpus.codes(result["messages"])) or f"exit {result['exit']}"
-    try:
-        done = subprocess.run([fetexc, "compare", path, output, "--magnification", str(PIXELS_A_TEXEL), "--json", "-q", "-j", "1"],
-                              capture_output=True, text=True, timeout=COMPARE_LIMIT, check=False)
-    except subprocess.TimeoutExpired:
-        return None, "comparing takes too long"
-    finally:
-        output.unlink(missing_ok=True)
-    if done.returncode != 0:
-        return None, done.stderr.strip()
-    found = json.loads(done.stdout)["sizes"][0]
+    printed, reason = corpus.output_of([fetexc, "compare", path, output, "--magnification", str(PIXELS_A_TEXEL), "--json", "-q", "-j", "1"],
+                                       COMPARE_LIMIT)
+    output.unlink(missing_ok=True)
+    if printed is None:
+        return None, reason
+    found = json.loads(printed)["sizes"][0]
     report = result["report"]
     return {"width": report["width"], "height": report["height"], "bytes": report["gpuBytes"], "psnr": found["psnrDb"],
             "ppm": found["misclassified"]["ppm"], "codes": " ".join(corpus.codes(result["messages"]))}, ""
