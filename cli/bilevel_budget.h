@@ -14,8 +14,8 @@ namespace fetexc::cli {
 std::optional<GridSize> bilevel_grid_of_bytes(double aspect, std::uint64_t bytes, std::uint32_t channels, bool mips);
 
 /// The texture with at most `bytes` bytes that has the least area wrong: each number of channels (options.channels, or
-/// all) at the largest size that it can have. options.size is ignored. The fits of all are in the statistics, the
-/// chosen one first. Errors: those of compile_bilevel; kFbtBudget if nothing fits.
+/// all) at the largest size that it can have. options.size and .sizes are ignored. The fits of all are in the
+/// statistics, the chosen one first. Errors: those of compile_bilevel; kFbtBudget if nothing fits.
 Result<BilevelBuild> compile_bilevel_within(const Silhouette& silhouette, const BilevelOptions& options,
                                             std::uint64_t bytes, const ProgressSink& progress = {});
 

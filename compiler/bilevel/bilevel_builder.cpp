@@ -87,6 +87,9 @@ std::uint32_t packed(const Rgba& c) {
     return fetex::fbt_pack_sample({c.r, c.g, c.b, c.a}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
+bool left_out(GridSize size) { return size.width < 1 || size.height < 1; }
+bool beyond_limits(GridSize size) { return size.width > kMaxSize || size.height > kMaxSize; }
+
 /// As many bytes in more channels.
 GridSize shrunk(GridSize size, std::uint32_t channels) {
     const double factor = 1 / std::sqrt(static_cast<double>(channels));
@@ -94,25 +97,39 @@ GridSize shrunk(GridSize size, std::uint32_t channels) {
     return {side(size.width), side(size.height)};
 }
 
+/// Of 1, 2 and 3 channels.
+std::array<GridSize, 3> sizes_of(const BilevelOptions& options) {
+    if (options.sizes) return *options.sizes;
+    std::array<GridSize, 3> out{};
+    for (std::uint32_t channels = 1; channels <= 3; ++channels) {
+        const bool wanted = options.channels == 0 || options.channels == channels;
+        const bool as_given = options.exact_size || left_out(options.size);
+        if (wanted) out[channels - 1] = as_given ? options.size : shrunk(options.size, channels);
+    }
+    return out;
+}
+
+GridSize size_of(const std::array<GridSize, 3>& sizes, BilevelRule rule) {
+    return sizes[fetex::bilevel_channels(rule) - 1];
+}
+
 } // namespace
 
 Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const BilevelOptions& options,
                                      const ProgressSink& progress) {
-    const GridSize size = options.size;
-    if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize)
+    const std::array<GridSize, 3> sizes = sizes_of(options);
+    if (std::ranges::any_of(sizes, beyond_limits) || std::ranges::all_of(sizes, left_out))
         return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
     const Result<const Solver*> solver = load_solver();
     if (!solver) return solver.error();
     std::vector<BilevelRule> rules;
     for (const BilevelRule rule : {BilevelRule::Single, BilevelRule::Min, BilevelRule::Max, BilevelRule::Median}) {
-        if (options.channels == 0 || options.channels == fetex::bilevel_channels(rule)) rules.push_back(rule);
+        if (!left_out(size_of(sizes, rule))) rules.push_back(rule);
     }
     if (progress) progress("fit", 0);
     std::vector<Fitted> fits(rules.size());
     parallel_for(rules.size(), options.threads, [&](std::size_t k) {
-        const std::uint32_t channels = fetex::bilevel_channels(rules[k]);
-        fits[k] = fit_rule(*solver.value(), silhouette, options.exact_size ? size : shrunk(size, channels), rules[k],
-                           options.greys);
+        fits[k] = fit_rule(*solver.value(), silhouette, size_of(sizes, rules[k]), rules[k], options.greys);
     });
     std::stable_sort(fits.begin(), fits.end(),
                      [](const Fitted& a, const Fitted& b) { return a.fit.wrong < b.fit.wrong; });

@@ -2,7 +2,9 @@
 /// Bi-level textures (Loviscach 2005): a silhouette fitted by a small texture whose interpolation is cut at one half.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/bilevel/discrete_fit.h"
@@ -16,6 +18,8 @@ struct BilevelOptions {
     GridSize size; ///< of a texture of one channel; those of more channels have as many bytes, so fewer texels
     std::uint32_t channels = 0; ///< 1, 2, 3; 0: whichever gets the least area wrong
     bool exact_size = false;    ///< the size is in texels, whatever the channels
+    /// Of 1, 2 and 3 channels, instead of the three above; width 0: not tried.
+    std::optional<std::array<GridSize, 3>> sizes;
     MidGreys greys = MidGreys::Allow;
     bool mips = false;
     unsigned threads = 1; ///< 0: all; never changes a byte
