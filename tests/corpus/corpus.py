@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The corpus of real files: where it lies, what is in it, and how one file is compiled under limits."""
 
+import argparse
 import json
 import os
 import pathlib
@@ -16,6 +17,15 @@ SKIPPED = 77  # exit code that ctest shows as "skipped"
 
 def default_folder():
     return pathlib.Path(os.environ.get("FETEXC_CORPUS", ROOT.parent / "shared" / "corpus"))
+
+
+def parser(description):
+    """For the arguments that every runner takes."""
+    made = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    made.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release", help="build folder")
+    made.add_argument("--corpus", type=pathlib.Path, default=default_folder(), help="default: $FETEXC_CORPUS or ../shared/corpus")
+    made.add_argument("--only", default="", help="files whose path contains this")
+    return made
 
 
 def files(folder, only=""):

@@ -3,7 +3,6 @@
 """Compiles every SVG of a corpus and prints a table: exit, time, bytes, texels by work, diagnostics. Exit 1 when one crashes, takes
 over 60 s, fails without a numbered error, or writes something that `fetexc validate` refuses."""
 
-import argparse
 import collections
 import concurrent.futures
 import pathlib
@@ -54,10 +53,7 @@ def print_summary(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=corpus.ROOT / "build" / "release")
-    parser.add_argument("--corpus", type=pathlib.Path, default=corpus.default_folder(), help="default: $FETEXC_CORPUS or ../shared/corpus")
-    parser.add_argument("--only", default="", help="files whose path contains this")
+    parser = corpus.parser(__doc__)
     parser.add_argument("--size", type=int, default=128)
     parser.add_argument("-j", "--jobs", type=int, default=2, help="files compiled at a time")
     options = parser.parse_args()

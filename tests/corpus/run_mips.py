@@ -6,8 +6,6 @@ Takes a few files of each folder of the corpus (--per-folder), compiles them at 
 asks for 45 dB. Exit 0: all are, 1: some aren't, or a file failed; 77: no corpus here.
 """
 
-import argparse
-import pathlib
 import sys
 
 import corpus
@@ -32,11 +30,8 @@ def measure(program, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, type=pathlib.Path, help="build folder")
-    parser.add_argument("--corpus", type=pathlib.Path, default=corpus.default_folder())
+    parser = corpus.parser(__doc__)
     parser.add_argument("--per-folder", type=int, default=2)
-    parser.add_argument("--only", default="", help="files whose path has this part")
     options = parser.parse_args()
     if not options.corpus.is_dir():
         print(f"no corpus at {options.corpus}")

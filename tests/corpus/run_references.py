@@ -4,7 +4,6 @@
 by more than 64, a file passes with at most 0.4% of its pixels different. At least 95% of the files without filters, patterns or
 text must pass; the others are shown too."""
 
-import argparse
 import concurrent.futures
 import pathlib
 import re
@@ -63,10 +62,7 @@ def compare(fetexc, svg, reference, scratch, backend):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=corpus.ROOT / "build" / "release")
-    parser.add_argument("--corpus", type=pathlib.Path, default=corpus.default_folder())
-    parser.add_argument("--only", default="")
+    parser = corpus.parser(__doc__)
     parser.add_argument("--backend", default="cpu")
     parser.add_argument("--keep", type=pathlib.Path, help="keep textures and pictures in this folder")
     options = parser.parse_args()

@@ -6,7 +6,6 @@ Compiles each file at --size texels on the longer side and compares the texture 
 A file below 35 dB is marked. Exit 0: every file that compiles reaches 35 dB, 1: some don't or couldn't be measured; 77: no corpus here.
 """
 
-import argparse
 import json
 import pathlib
 import statistics
@@ -43,11 +42,8 @@ def decibels(value):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", required=True, type=pathlib.Path, help="build folder")
-    parser.add_argument("--corpus", type=pathlib.Path, default=corpus.default_folder())
+    parser = corpus.parser(__doc__)
     parser.add_argument("--size", type=int, default=128)
-    parser.add_argument("--only", default="", help="files whose path has this part")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     if not options.corpus.is_dir():

@@ -4,10 +4,8 @@
 raster layer is its outline's), solid colours right to 1/255, GLSL equal to the CPU reference within 1/255 away from edges at 1, 8, 64 and 512
 pixels a texel, under every back end asked for."""
 
-import argparse
 import concurrent.futures
 import json
-import pathlib
 import subprocess
 import sys
 
@@ -54,10 +52,7 @@ def row(name, result, found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=corpus.ROOT / "build" / "release")
-    parser.add_argument("--corpus", type=pathlib.Path, default=corpus.default_folder())
-    parser.add_argument("--only", default="")
+    parser = corpus.parser(__doc__)
     parser.add_argument("--size", type=int, default=128)
     parser.add_argument("--points", type=int, default=100000)
     parser.add_argument("--backend", action="append", default=[], help="osmesa, egl-surfaceless, egl-device or glfw; several times")
