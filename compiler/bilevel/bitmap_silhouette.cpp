@@ -9,8 +9,17 @@
 namespace fetexc {
 namespace {
 
-/// Of pixels that edges cut, in the mean of a side's colour: what counts where there are no others.
-constexpr double kEdgeWeight = 1e-6;
+/// Of some pixels.
+struct MeanColor {
+    void add(const Rgba& c) { sum = {sum.r + c.r, sum.g + c.g, sum.b + c.b, sum.a + c.a}, ++count; }
+    [[nodiscard]] Rgba color() const {
+        const double n = count > 0 ? static_cast<double>(count) : 1;
+        return {sum.r / n, sum.g / n, sum.b / n, sum.a / n};
+    }
+
+    Rgba sum;
+    std::size_t count = 0;
+};
 
 /// How far a picture is above, 0…1 where it has two levels only; one half is the edge. Pixels beyond the border repeat
 /// it.
@@ -214,25 +223,18 @@ Result<Silhouette> silhouette_of(const RasterImage& image, const SilhouetteRule&
     out.height = static_cast<double>(image.height) / image.width;
     out.pixelated = 1.0 / image.width;
     MarchingSquares(field, image.width, image.height).run(out.edges);
-    Rgba sum[2];
-    double weights[2] = {0, 0};
-    std::size_t count[2] = {0, 0};
+    // Pixels that edges cut say what colour a side has where there are no others.
+    MeanColor flat[2], cut[2];
     for (std::uint32_t y = 0; y < image.height; ++y) {
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const double v = field.at(x, y);
             const std::size_t side = v > 0.5 ? 1 : 0;
-            const Rgba c = image.at(x, y);
-            const double weight = v == side ? 1 : kEdgeWeight;
-            sum[side] = {sum[side].r + weight * c.r, sum[side].g + weight * c.g, sum[side].b + weight * c.b,
-                         sum[side].a + weight * c.a};
-            weights[side] += weight, ++count[side];
+            (v == static_cast<double>(side) ? flat : cut)[side].add(image.at(x, y));
         }
     }
-    out.above_everywhere = count[0] == 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const double n = count[side] > 0 ? weights[side] : 1;
-        (side == 1 ? out.above : out.below) = {sum[side].r / n, sum[side].g / n, sum[side].b / n, sum[side].a / n};
-    }
+    const auto color = [&](std::size_t side) { return (flat[side].count > 0 ? flat : cut)[side].color(); };
+    out.below = color(0), out.above = color(1);
+    out.above_everywhere = flat[0].count + cut[0].count == 0;
     return out;
 }
 
