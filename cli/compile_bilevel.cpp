@@ -78,11 +78,16 @@ std::string options_text(const BilevelRequest& request, const fetex::BilevelText
 }
 
 void warn(const BilevelStats& stats, std::vector<Diagnostic>& diagnostics) {
-    const auto add = [&](std::uint64_t count, int code, const char* what) {
+    const auto add = [&](std::uint64_t count, int code, const std::string& what) {
         if (count > 0) diagnostics.push_back({Severity::Warning, code, fmt::format("{} {}", count, what), ""});
     };
-    add(stats.parts_lost, diag::kBilevelPartsLost, "parts of the silhouette don't show, they are too small");
-    add(stats.parts_false, diag::kBilevelPartsFalse, "parts show that the silhouette hasn't");
+    const PartCounts& parts = stats.parts;
+    add(parts.lost, diag::kBilevelPartsLost,
+        fmt::format("parts of the silhouette don't show, they are too small; one is at u,v {:.4f},{:.4f}", parts.lost_u,
+                    parts.lost_v));
+    add(parts.invented, diag::kBilevelPartsFalse,
+        fmt::format("parts show that the silhouette hasn't; one is at u,v {:.4f},{:.4f}", parts.invented_u,
+                    parts.invented_v));
     add(stats.edges_varying, diag::kBilevelColorsVary,
         "edges of the silhouette have colours that vary along them, cut by those of their middles");
 }

@@ -100,10 +100,10 @@ std::string fit_text(const BilevelFit& f) {
         fmt::format("  {:<10} {} x {} texels, {} channel{}: {:.0f} ppm wrong; {:.1f}% of texels fitted\n",
                     rule_name(f.rule), f.width, f.height, channels, channels == 1 ? "" : "s", 1e6 * f.wrong,
                     100 * static_cast<double>(f.texels_fitted) / texels);
-    text +=
-        fmt::format("             {} steps of the contour{}, then {} values tried; ppm after steps 1, 2, 4 … {}: {}\n",
-                    f.contour_steps, f.paper_start ? " from the paper's equations" : "", f.bytes_tried, f.trace.size(),
-                    trace_text(f));
+    text += fmt::format("             {} steps of the contour{}, then {} values tried, {} islands mended; ppm after "
+                        "steps 1, 2, 4 … {}: {}\n",
+                        f.contour_steps, f.paper_start ? " from the paper's equations" : "", f.bytes_tried,
+                        f.parts_mended, f.trace.size(), trace_text(f));
     return text;
 }
 
@@ -115,7 +115,7 @@ std::string bilevel_text(const BilevelOutcome& b) {
         b.mip_levels > 0 ? fmt::format(", {} mip levels", b.mip_levels) : "",
         b.image_width > 0 ? fmt::format(", an image of {} x {} pixels", b.image_width, b.image_height) : "");
     text += fmt::format("  silhouette {} edges in {} parts; {} parts lost, {} false, {} cells crossed twice\n", s.edges,
-                        s.parts, s.parts_lost, s.parts_false, s.thin_cells);
+                        s.parts.parts, s.parts.lost, s.parts.invented, s.thin_cells);
     for (const BilevelFit& fit : s.fits)
         text += fit_text(fit);
     return text;
@@ -215,6 +215,7 @@ Json fit_json(const BilevelFit& f) {
             {"paperStart", f.paper_start},
             {"contourSteps", f.contour_steps},
             {"bytesTried", f.bytes_tried},
+            {"partsMended", f.parts_mended},
             {"tracePpm", trace_ppm(f)}};
 }
 
@@ -233,9 +234,9 @@ Json bilevel_json(const BilevelOutcome& b) {
             {"gpuBytes", b.gpu_bytes},
             {"edges", s.edges},
             {"edgesVarying", s.edges_varying},
-            {"parts", s.parts},
-            {"partsLost", s.parts_lost},
-            {"partsFalse", s.parts_false},
+            {"parts", s.parts.parts},
+            {"partsLost", s.parts.lost},
+            {"partsFalse", s.parts.invented},
             {"thinCells", s.thin_cells},
             {"fits", fits}};
 }

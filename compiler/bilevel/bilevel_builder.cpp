@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compiler/bilevel/coverage.h"
+#include "compiler/bilevel/mend_parts.h"
 #include "compiler/bilevel/parts.h"
 #include "compiler/bilevel/seed.h"
 #include "compiler/diagnostics.h"
@@ -144,8 +145,7 @@ Result<BilevelBuild> compile_bilevel(const Silhouette& silhouette, const Bilevel
     t.below = packed(silhouette.below), t.above = packed(silhouette.above);
     if (progress) progress("levels", 0.9);
     if (options.mips) t.mips = coverage_levels(silhouette, t.width, t.height, options.threads);
-    const PartCounts parts = count_parts(silhouette, t, kPartRows, options.threads);
-    out.stats.parts = parts.parts, out.stats.parts_lost = parts.lost, out.stats.parts_false = parts.invented;
+    out.stats.parts = count_parts(silhouette, t, kPartRows, options.threads);
     out.stats.gpu_bytes = fetex::bilevel_gpu_bytes(t);
     out.stats.edges = silhouette.edges.size(), out.stats.edges_varying = silhouette.edges_varying;
     return out;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/bilevel/discrete_fit.h"
+#include "compiler/bilevel/parts.h"
 #include "compiler/bilevel/silhouette.h"
 #include "compiler/compile.h"
 #include "formats/bilevel.h"
@@ -41,7 +42,7 @@ struct BilevelFit {
 struct BilevelStats {
     std::vector<BilevelFit> fits; ///< the chosen one first
     std::uint64_t edges = 0, edges_varying = 0;
-    std::uint64_t parts = 0, parts_lost = 0, parts_false = 0; ///< connected parts of the outline, of above and below
+    PartCounts parts;
     std::uint64_t thin_cells =
         0; ///< cells of the chosen fit where the outline crosses a line twice or more: thinner than a texel
     std::uint64_t gpu_bytes = 0;

@@ -80,7 +80,7 @@ double mean_ppm(double bytes, std::uint32_t channels) {
         const Silhouette s = shape(name);
         const BilevelBuild b = fit(s, square_of(bytes), channels);
         EXPECT_LE(b.texture.texels.size(), bytes * 1.001) << name;
-        EXPECT_EQ(b.stats.parts_false, 0u) << name << " " << bytes;
+        EXPECT_EQ(b.stats.parts.invented, 0u) << name << " " << bytes;
         logs += std::log(b.stats.fits[0].wrong);
     }
     return std::exp(logs / std::size(kShapes)) * 1e6;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/bilevel/bilevel_builder.h"
+#include "compiler/bilevel/mend_parts.h"
 #include "compiler/bilevel/parts.h"
 #include "compiler/bilevel/threshold_cells.h"
 #include "tests/support/drawn_scene.h"
@@ -30,6 +31,8 @@ TEST(BilevelParts, countsWhatIsLost) {
     EXPECT_EQ(blank.parts, 7u); // and the ground
     EXPECT_EQ(blank.lost, 6u);
     EXPECT_EQ(blank.invented, 0u);
+    EXPECT_NEAR(blank.lost_u, 110.0 / 512, 1e-3); // the first in rows from the top is the square
+    EXPECT_NEAR(blank.lost_v, 110.0 / 512, 1e-3);
     const PartCounts full = count_parts(drawn(paths), flat(32, 255), kRows, 1);
     EXPECT_EQ(full.lost, 1u);
     paths = {test::box(20, 20, 200, 200), test::box(60, 60, 150, 150), test::box(300, 300.01, 300.1, 300.11)};
@@ -93,7 +96,7 @@ TEST(BilevelParts, smallPartsShowWhereThatCostsLittle) {
     const Silhouette s = drawn({test::box(100, 100, 106, 106), test::box(300, 100, 500, 300)});
     BilevelOptions options;
     options.size = {32, 32}, options.channels = 1;
-    EXPECT_EQ(compile_bilevel(s, options).value().stats.parts_lost, 0u);
+    EXPECT_EQ(compile_bilevel(s, options).value().stats.parts.lost, 0u);
 }
 
 } // namespace
