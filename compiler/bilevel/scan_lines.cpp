@@ -34,9 +34,21 @@ ScanLines::ScanLines(std::span<const OutlineSegment> outline, std::uint32_t acro
     crossings_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     each([&](std::size_t n, const Crossing& c) { crossings_[next[n]++] = c; });
-    for (std::size_t n = 0; n + 1 < first_.size(); ++n)
-        std::stable_sort(crossings_.begin() + first_[n], crossings_.begin() + first_[n + 1],
-                         [](const Crossing& a, const Crossing& b) { return a.at < b.at; });
+    std::uint32_t kept = 0;
+    for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
+        const auto begin = crossings_.begin() + first_[n], end = crossings_.begin() + first_[n + 1];
+        std::stable_sort(begin, end, [](const Crossing& x, const Crossing& y) { return x.at < y.at; });
+        first_[n] = kept;
+        // Two at the same point, a vertex that the line touches, leave all as it was.
+        for (auto c = begin; c != end; ++c) {
+            if (kept > first_[n] && crossings_[kept - 1].at == c->at && crossings_[kept - 1].enters != c->enters)
+                --kept;
+            else
+                crossings_[kept++] = *c;
+        }
+    }
+    first_.back() = kept;
+    crossings_.resize(kept);
 }
 
 bool ScanLines::above(std::uint32_t n, double at) const {

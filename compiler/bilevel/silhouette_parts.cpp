@@ -26,12 +26,18 @@ void SilhouetteParts::join_ends(std::span<const OutlineSegment> outline) {
         ends.emplace_back(outline[k].x1, outline[k].y1, k);
     }
     std::ranges::sort(ends);
-    for (std::size_t k = 1; k < ends.size(); ++k) {
-        const auto& [x, y, segment] = ends[k];
-        const auto& [before_x, before_y, before] = ends[k - 1];
-        if (x != before_x || y != before_y) continue;
-        sets_.unite(side(segment, true), side(before, true));
-        sets_.unite(side(segment, false), side(before, false));
+    const auto alike = [&](std::size_t a, std::size_t b) {
+        return b < ends.size() && std::get<0>(ends[a]) == std::get<0>(ends[b]) &&
+               std::get<1>(ends[a]) == std::get<1>(ends[b]);
+    };
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        const std::uint32_t segment = std::get<2>(ends[k]);
+        if (alike(k, k + 1)) {
+            sets_.unite(side(segment, true), side(std::get<2>(ends[k + 1]), true));
+            sets_.unite(side(segment, false), side(std::get<2>(ends[k + 1]), false));
+        } else if (k == 0 || !alike(k, k - 1)) {
+            open_.push_back(segment);
+        }
     }
 }
 
@@ -72,6 +78,9 @@ void SilhouetteParts::count(std::span<const OutlineSegment> outline, const std::
     for (std::uint32_t k = 0; k < segments_; ++k) {
         if (met[k] != 0) reached[sets_.find(side(k, true))] = 1;
     }
+    // Pieces from border to border between two rows part nothing that the rows don't know.
+    for (const std::uint32_t k : open_)
+        reached[sets_.find(side(k, true))] = 1;
     for (std::uint32_t k = 0; k < outline.size(); ++k) {
         std::uint8_t& known = reached[sets_.find(side(k, true))];
         if (known == 0) ++parts, unmet.push_back(k), known = 1;

@@ -38,7 +38,8 @@ class SilhouetteParts {
 
     const ScannedOutline& scanned_;
     std::uint32_t segments_, lines_;
-    UnionFind sets_; ///< sides of the segments; ends of the rows, left and right
+    std::vector<std::uint32_t> open_; ///< segments with an end that no other has: at the canvas' border
+    UnionFind sets_;                  ///< sides of the segments; ends of the rows, left and right
 };
 
 } // namespace fetexc

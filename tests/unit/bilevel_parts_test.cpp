@@ -13,7 +13,15 @@ namespace {
 
 constexpr std::uint32_t kRows = 65;
 
-Silhouette drawn(const std::vector<test::Path>& paths) { return silhouette_of(test::scene_of(paths), {}, 1).value(); }
+/// Of paths apart from each other.
+Silhouette drawn(const std::vector<test::Path>& paths) {
+    Silhouette all = silhouette_of(test::scene_of({paths[0]}), {}, 1).value();
+    for (std::size_t k = 1; k < paths.size(); ++k) {
+        const Silhouette one = silhouette_of(test::scene_of({paths[k]}), {}, 1).value();
+        all.edges.insert(all.edges.end(), one.edges.begin(), one.edges.end());
+    }
+    return all;
+}
 
 fetex::BilevelTexture flat(std::uint32_t side, std::uint8_t value) {
     fetex::BilevelTexture t;
@@ -35,10 +43,14 @@ TEST(BilevelParts, countsWhatIsLost) {
     EXPECT_NEAR(blank.lost_v, 110.0 / 512, 1e-3);
     const PartCounts full = count_parts(drawn(paths), flat(32, 255), kRows, 1);
     EXPECT_EQ(full.lost, 1u);
-    paths = {test::box(20, 20, 200, 200), test::box(60, 60, 150, 150), test::box(300, 300.01, 300.1, 300.11)};
-    const PartCounts ring = count_parts(drawn({paths[0], paths[2]}), flat(32, 0), kRows, 1);
-    EXPECT_EQ(ring.parts, 3u);
-    EXPECT_EQ(ring.lost, 2u);
+    Silhouette s = drawn({paths[0]});
+    const test::Path tiny = test::box(19201, 19201, 19205, 19205); // 64 of these are a unit
+    const Silhouette speck =
+        silhouette_of(test::scene_of({tiny}, FillRule::EvenOdd, kLatticeSteps / 512 / 64), {}, 1).value();
+    s.edges.insert(s.edges.end(), speck.edges.begin(), speck.edges.end());
+    const PartCounts found = count_parts(s, flat(32, 0), kRows, 1);
+    EXPECT_EQ(found.parts, 3u);
+    EXPECT_EQ(found.lost, 2u);
 }
 
 /// A needle is one part up to its tip, along rows and along columns, and so is what lies on both sides of it.
