@@ -24,10 +24,9 @@ const LeastSquaresOptions kThorough{100, 1e8, 1e-6, 1e-16, {}};
 
 /// x − wanted, one residual for each wanted number, of one unknown.
 struct MeanProblem {
-    explicit MeanProblem(std::vector<double> numbers, ResidualLoss how = {}) : wanted(std::move(numbers)), loss(how) {
-        residuals.assign(wanted.size(), Residual{0, 1, 0, 1});
+    explicit MeanProblem(std::vector<double> numbers) : wanted(std::move(numbers)) {
+        residuals.assign(wanted.size(), Residual{0, 1, 1});
         stated.unknowns = unknown, stated.blocks = blocks, stated.residuals = residuals;
-        stated.losses = std::span(&loss, 1);
         stated.evaluate = [this](std::uint32_t k, const double* const* x, double* values, double** derivatives) {
             values[0] = x[0][0] - wanted[k];
             if (derivatives != nullptr && derivatives[0] != nullptr) derivatives[0][0] = 1;
@@ -41,7 +40,6 @@ struct MeanProblem {
     }
 
     std::vector<double> wanted;
-    ResidualLoss loss;
     std::array<double, 1> unknown{0};
     std::array<std::uint32_t, 1> blocks{0};
     std::vector<Residual> residuals;
@@ -49,19 +47,6 @@ struct MeanProblem {
 };
 
 TEST(LeastSquaresSolver, findsTheMean) { EXPECT_NEAR(MeanProblem({1, 2, 6}).solve(), 3, kNear); }
-
-TEST(LeastSquaresSolver, anOutlierPullsNoMoreThanTheLossLets) {
-    // Two pull by their distance, the third by exact_to: 2(x − 1) = 1/2.
-    EXPECT_NEAR(MeanProblem({1, 1, 50}, {0.5, 1}).solve(), 1.25, kNear);
-    EXPECT_NEAR(MeanProblem({1, 1, 50}, {0.5, 7}).solve(), 1.25, kNear) << "a weight of all changes nothing";
-}
-
-TEST(LeastSquaresSolver, aWeightIsThatOfTheSquares) {
-    MeanProblem p({0, 1});
-    const std::array<ResidualLoss, 2> losses{ResidualLoss{INFINITY, 1}, ResidualLoss{INFINITY, 3}};
-    p.residuals[1].loss = 1, p.stated.losses = losses;
-    EXPECT_NEAR(p.solve(), 0.75, kNear);
-}
 
 TEST(LeastSquaresSolver, keepsToTheBounds) {
     MeanProblem above({5}), below({-5});
@@ -92,11 +77,9 @@ TEST(LeastSquaresSolver, blocksOfSeveralUnknownsAndResidualsOfSeveralValues) {
     // Points a, b, c of the plane: a is given, b − a and c − b are, d is of no residual.
     std::array<double, 8> points{0, 0, 0, 0, 0, 0, 7, 8};
     const std::array<std::uint32_t, 5> blocks{0, 0, 1, 1, 2};
-    const std::array<Residual, 3> residuals{Residual{0, 1, 0, 2}, Residual{1, 2, 0, 2}, Residual{3, 2, 0, 2}};
-    const ResidualLoss squares;
+    const std::array<Residual, 3> residuals{Residual{0, 1, 2}, Residual{1, 2, 2}, Residual{3, 2, 2}};
     LeastSquares stated;
     stated.unknowns = points, stated.block_size = 2, stated.blocks = blocks, stated.residuals = residuals;
-    stated.losses = std::span(&squares, 1);
     stated.evaluate = [&](std::uint32_t k, const double* const* p, double* values, double** derivatives) {
         for (std::size_t c = 0; c < 2; ++c) {
             values[c] = k == 0 ? p[0][c] - 1 : p[1][c] - p[0][c] - (c == 0 ? 10 : -20);
@@ -123,11 +106,11 @@ TEST(LeastSquaresSolver, problemsMayBeSolvedAtTheSameTime) {
     std::array<double, 8> found{};
     std::vector<std::thread> threads;
     for (std::size_t t = 0; t < found.size(); ++t)
-        threads.emplace_back([&, t] { found[t] = MeanProblem({0.1, 0.7, static_cast<double>(t)}, {0.2, 1}).solve(); });
+        threads.emplace_back([&, t] { found[t] = MeanProblem({0.1, 0.7, static_cast<double>(t)}).solve(); });
     for (std::thread& thread : threads)
         thread.join();
     for (std::size_t t = 0; t < found.size(); ++t)
-        EXPECT_EQ(found[t], MeanProblem({0.1, 0.7, static_cast<double>(t)}, {0.2, 1}).solve()) << t;
+        EXPECT_EQ(found[t], MeanProblem({0.1, 0.7, static_cast<double>(t)}).solve()) << t;
 }
 
 } // namespace
