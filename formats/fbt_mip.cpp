@@ -34,29 +34,8 @@ struct Neighbours {
     }
 };
 
-FbtColor sample_level(const FbtTexture& t, double x, double y, std::uint32_t k) {
-    const FbtMipLevel level = fbt_mip_level(t.width, t.height, k);
-    const Neighbours column(x, t.width, level.width), row(y, t.height, level.height);
-    const auto at = [&](std::uint32_t i, std::uint32_t j) {
-        return color_of(t.mips[level.first + std::uint64_t{j} * level.width + i]);
-    };
-    const auto along_row = [&](std::uint32_t j) {
-        return mix(at(column.first, j), at(column.second, j), column.weight);
-    };
-    return mix(along_row(row.first), along_row(row.second), row.weight);
-}
-
 FbtColor sample_square(const FbtTexture& t, double x, double y, double side, bool exact) {
     return side > 0 ? fbt_sample_area(t, x, y, {side / 2, side / 2, exact}) : fbt_sample(t, x, y);
-}
-
-/// The coarsest level whose scale is at most texels_per_pixel; 0 if there is none. Scales lie from 2^k to below
-/// 2^(k+1).
-std::uint32_t finer_level(const FbtTexture& t, double texels_per_pixel) {
-    const std::uint32_t n = fbt_mip_levels(t.width, t.height);
-    if (!(texels_per_pixel < fbt_mip_scale(t.width, t.height, n))) return n;
-    const auto k = static_cast<std::uint32_t>(std::max(std::floor(std::log2(texels_per_pixel)), 0.0));
-    return k > 0 && fbt_mip_scale(t.width, t.height, k) > texels_per_pixel ? k - 1 : k;
 }
 
 } // namespace
@@ -85,16 +64,41 @@ double fbt_mip_scale(std::uint32_t width, std::uint32_t height, std::uint32_t k)
     return std::max(static_cast<double>(width) / level.width, static_cast<double>(height) / level.height);
 }
 
+std::uint32_t fbt_mip_finer_level(std::uint32_t width, std::uint32_t height, double side) {
+    if (!(side > 1)) return 0;
+    const std::uint32_t n = fbt_mip_levels(width, height);
+    if (!(side < fbt_mip_scale(width, height, n))) return n;
+    // Scales lie from 2^k to below 2^(k+1).
+    const auto k = static_cast<std::uint32_t>(std::floor(std::log2(side)));
+    return k > 0 && fbt_mip_scale(width, height, k) > side ? k - 1 : k;
+}
+
+FbtColor fbt_mip_color(std::span<const std::uint32_t> mips, std::uint32_t width, std::uint32_t height, std::uint32_t k,
+                       double x, double y) {
+    const FbtMipLevel level = fbt_mip_level(width, height, k);
+    const Neighbours column(x, width, level.width), row(y, height, level.height);
+    const auto at = [&](std::uint32_t i, std::uint32_t j) {
+        return color_of(mips[level.first + std::uint64_t{j} * level.width + i]);
+    };
+    const auto along_row = [&](std::uint32_t j) {
+        return mix(at(column.first, j), at(column.second, j), column.weight);
+    };
+    return mix(along_row(row.first), along_row(row.second), row.weight);
+}
+
 FbtColor fbt_sample_mip(const FbtTexture& texture, double x, double y, double texels_per_pixel, bool exact) {
     const double side = texels_per_pixel > 0 ? texels_per_pixel : 0.0; // NaN becomes 0
-    const std::uint32_t n = fbt_mip_levels(texture.width, texture.height), k = finer_level(texture, side);
-    const FbtColor fine =
-        k == 0 ? sample_square(texture, x, y, std::min(side, 1.0), exact) : sample_level(texture, x, y, k);
+    const std::uint32_t n = fbt_mip_levels(texture.width, texture.height),
+                        k = fbt_mip_finer_level(texture.width, texture.height, side);
+    const auto level = [&](std::uint32_t at) {
+        return fbt_mip_color(texture.mips, texture.width, texture.height, at, x, y);
+    };
+    const FbtColor fine = k == 0 ? sample_square(texture, x, y, std::min(side, 1.0), exact) : level(k);
     if (k == n) return fine;
     const double from = fbt_mip_scale(texture.width, texture.height, k),
                  to = fbt_mip_scale(texture.width, texture.height, k + 1);
     if (side <= from) return fine;
-    return mix(fine, sample_level(texture, x, y, k + 1), std::log(side / from) / std::log(to / from));
+    return mix(fine, level(k + 1), std::log(side / from) / std::log(to / from));
 }
 
 FbtColor fbt_sample_mip_aniso(const FbtTexture& texture, double x, double y, FbtVector dx, FbtVector dy, bool exact) {

@@ -27,6 +27,13 @@ std::uint64_t fbt_mip_samples(std::uint32_t width, std::uint32_t height);
 /// others (less than 2^k only in a texture of one texel).
 double fbt_mip_scale(std::uint32_t width, std::uint32_t height, std::uint32_t k);
 
+/// The coarsest level whose scale is at most `side`, 0 … n. NaN gives 0.
+std::uint32_t fbt_mip_finer_level(std::uint32_t width, std::uint32_t height, double side);
+/// The colour of level k, 1 … n, at a point of the texel space of a texture of width×height, bilinear, edges repeated.
+/// mips: its RGBA8 samples, as FbtTexture::mips.
+FbtColor fbt_mip_color(std::span<const std::uint32_t> mips, std::uint32_t width, std::uint32_t height, std::uint32_t k,
+                       double x, double y);
+
 /// A displacement in texels.
 struct FbtVector {
     double x = 0, y = 0;
