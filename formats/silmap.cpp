@@ -30,11 +30,6 @@ constexpr std::uint32_t kEastBit = 1, kSouthBit = 2;
 std::uint32_t link_along_x(std::uint32_t corner) { return corner & kSouthBit ? kSilmapSouth : kSilmapNorth; }
 std::uint32_t link_along_y(std::uint32_t corner) { return corner & kEastBit ? kSilmapEast : kSilmapWest; }
 
-/// A coordinate of a link's end, cut to the cell: where it leaves.
-double exit_at(double from, double to, double across_from, double across_to, double border) {
-    return from + (to - from) * (border - across_from) / (across_to - across_from);
-}
-
 /// Mean of clamp(u, 0, w) while u goes evenly from a to b.
 double mean_clamped(double a, double b, double w) {
     const double low = std::min(a, b), high = std::max(a, b);
@@ -148,19 +143,13 @@ std::array<double, 4> silmap_weights(std::uint32_t corners, double x, double y) 
 
 std::array<double, 4> silmap_areas(const SilmapShape& shape, const SilmapBox& box) {
     const SilmapPoint& p = shape.point;
-    std::array<double, 4> left{}; // by link, from the point to where it leaves the cell
-    std::array<SilmapPoint, 4> exits{};
-    for (std::uint32_t link = 0; link < 4; ++link) {
-        const SilmapPoint& q = shape.across[link];
-        const double border = link == kSilmapEast || link == kSilmapSouth ? 1 : 0;
-        exits[link] = link == kSilmapEast || link == kSilmapWest
-                          ? SilmapPoint{border, exit_at(p.y, q.y, p.x, q.x, border)}
-                          : SilmapPoint{exit_at(p.x, q.x, p.y, q.y, border), border};
-        left[link] = area_left_of(p, exits[link], box);
-    }
-    // Round each quadrant, out along one link, along the cell's border, back along the next. Of the border only the
-    // east side counts: the west side has nothing to its left, the others don't go down.
-    const double width = box.x1 - box.x0, end = std::clamp(exits[kSilmapEast].y, box.y0, box.y1);
+    std::array<double, 4> left{}; // by link
+    for (std::uint32_t link = 0; link < 4; ++link)
+        left[link] = area_left_of(p, shape.across[link], box);
+    // Round each quadrant: out along one link, along a border to the right of the box or beyond it, back along the
+    // next. What links have beyond the cell lies beyond the box too: below or above it, left of it, where nothing
+    // counts, or right of it, where the border between them gives it back.
+    const double width = box.x1 - box.x0, end = std::clamp(shape.across[kSilmapEast].y, box.y0, box.y1);
     std::array<double, 4> areas{};
     areas[kSilmapNW] = left[kSilmapWest] - left[kSilmapNorth];
     areas[kSilmapNE] = left[kSilmapNorth] - left[kSilmapEast] + width * (end - box.y0);
