@@ -18,6 +18,7 @@
 //   FETEX_SILMAP_SAMPLES    1: fetexSilmapColors is RGBA16UI
 //   FETEX_SILMAP_FILTERED   0: each point has the colour of its corner; 1: of all that it reaches
 //   FETEX_SILMAP_MIPS       1: there is a mip chain
+//   FETEX_SILMAP_GATHER     1: textureGather of cells; where the dialect has it, unless it says otherwise
 //
 // Fetches of a point: two cells and one colour, filtered four cells (or two gathers) and four colours. Of a pixel: five
 // cells (two gathers) and four colours in each of the one to four cells that it overlaps.
@@ -34,8 +35,9 @@
 #ifndef FETEX_SILMAP_MIPS
 #define FETEX_SILMAP_MIPS 0
 #endif
+// Gathers of integers don't cross from SPIR-V to HLSL; where Vulkan runs it, define it as 1.
 #ifndef FETEX_SILMAP_GATHER
-#if __VERSION__ >= 400 || defined(GL_ARB_texture_gather)
+#if (__VERSION__ >= 400 || defined(GL_ARB_texture_gather)) && !defined(FETEX_VULKAN)
 #define FETEX_SILMAP_GATHER 1
 #else
 #define FETEX_SILMAP_GATHER 0
