@@ -65,11 +65,11 @@ double fbt_mip_scale(std::uint32_t width, std::uint32_t height, std::uint32_t k)
 }
 
 std::uint32_t fbt_mip_finer_level(std::uint32_t width, std::uint32_t height, double side) {
-    if (!(side > 1)) return 0;
+    if (!(side > 0)) return 0;
     const std::uint32_t n = fbt_mip_levels(width, height);
     if (!(side < fbt_mip_scale(width, height, n))) return n;
     // Scales lie from 2^k to below 2^(k+1).
-    const auto k = static_cast<std::uint32_t>(std::floor(std::log2(side)));
+    const auto k = static_cast<std::uint32_t>(std::max(std::floor(std::log2(side)), 0.0));
     return k > 0 && fbt_mip_scale(width, height, k) > side ? k - 1 : k;
 }
 
