@@ -14,14 +14,6 @@ namespace {
 /// Taps: a ratio of sides halfway between two numbers gives the lower one, in float as in double.
 constexpr double kTapSlack = 0x1p-10;
 
-FbtColor sample_level(const FbtTexture& t, double x, double y, std::uint32_t k) {
-    const FbtMipLevel level = fbt_mip_level(t.width, t.height, k);
-    return interpolated(Neighbours::around(x, t.width, level.width), Neighbours::around(y, t.height, level.height),
-                        [&](std::uint32_t i, std::uint32_t j) {
-                            return color_of(t.mips[level.first + std::uint64_t{j} * level.width + i]);
-                        });
-}
-
 FbtColor sample_square(const FbtTexture& t, double x, double y, double side, bool exact) {
     return side > 0 ? fbt_sample_area(t, x, y, {side / 2, side / 2, exact}) : fbt_sample(t, x, y);
 }
@@ -62,12 +54,23 @@ FbtMipPlace fbt_mip_place(std::uint32_t width, std::uint32_t height, double side
     return {k, std::log(side / from) / std::log(fbt_mip_scale(width, height, k + 1) / from)};
 }
 
+FbtColor fbt_mip_color(std::span<const std::uint32_t> mips, std::uint32_t width, std::uint32_t height, std::uint32_t k,
+                       double x, double y) {
+    const FbtMipLevel level = fbt_mip_level(width, height, k);
+    return interpolated(Neighbours::around(x, width, level.width), Neighbours::around(y, height, level.height),
+                        [&](std::uint32_t i, std::uint32_t j) {
+                            return color_of(mips[level.first + std::uint64_t{j} * level.width + i]);
+                        });
+}
+
 FbtColor fbt_sample_mip(const FbtTexture& texture, double x, double y, double texels_per_pixel, bool exact) {
     const double side = texels_per_pixel > 0 ? texels_per_pixel : 0.0; // NaN becomes 0
     const auto [k, part] = fbt_mip_place(texture.width, texture.height, side);
-    const FbtColor fine =
-        k == 0 ? sample_square(texture, x, y, std::min(side, 1.0), exact) : sample_level(texture, x, y, k);
-    return part > 0 ? mix(fine, sample_level(texture, x, y, k + 1), part) : fine;
+    const auto level = [&](std::uint32_t at) {
+        return fbt_mip_color(texture.mips, texture.width, texture.height, at, x, y);
+    };
+    const FbtColor fine = k == 0 ? sample_square(texture, x, y, std::min(side, 1.0), exact) : level(k);
+    return part > 0 ? mix(fine, level(k + 1), part) : fine;
 }
 
 FbtColor fbt_sample_mip_aniso(const FbtTexture& texture, double x, double y, FbtVector dx, FbtVector dy, bool exact) {

@@ -35,6 +35,10 @@ struct FbtMipPlace {
 };
 /// side: texels, not NaN.
 FbtMipPlace fbt_mip_place(std::uint32_t width, std::uint32_t height, double side);
+/// The colour of level k, 1 … n, at a point of the texel space of a texture of width×height, bilinear, edges repeated.
+/// mips: its RGBA8 samples, as FbtTexture::mips.
+FbtColor fbt_mip_color(std::span<const std::uint32_t> mips, std::uint32_t width, std::uint32_t height, std::uint32_t k,
+                       double x, double y);
 
 /// A displacement in texels.
 struct FbtVector {

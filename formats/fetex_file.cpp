@@ -4,6 +4,7 @@
 #include "formats/bilevel_chunks.h"
 #include "formats/fbt_mip.h"
 #include "formats/fbt_samples.h"
+#include "formats/silmap_chunks.h"
 #include "formats/validate.h"
 #include <algorithm>
 
@@ -16,7 +17,7 @@ constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
 constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, kFlagPatches = 8, kFlagShared = 16,
                         kFlagsKnown = 31;
 /// As write_file numbers them.
-constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1;
+constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1, kSilmapRepresentation = 2;
 
 using Words = std::vector<std::uint32_t>;
 
@@ -246,12 +247,13 @@ class Reader {
         check_numbers();
         if (findings_.empty()) read_fbt_chunks();
         if (findings_.size() < limit_) read_bilevel_chunks();
+        if (findings_.size() < limit_) read_silmap_chunks();
     }
     std::vector<Finding> take() { return std::move(findings_); }
 
   private:
-    /// Level 0 of the known chunks, and any of FBTM and BLVM; of each kind the representation of the lowest number is
-    /// the one that is read.
+    /// Level 0 of the known chunks, and any of FBTM, BLVM and SLMM; of each kind the representation of the lowest
+    /// number is the one that is read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
         const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
                          chunk.type == kFbtRecords;
@@ -267,6 +269,8 @@ class Reader {
             fbts_[chunk.representation].mips[chunk.level] = &chunk;
         } else if (is_bilevel_chunk(chunk)) {
             bilevels_[chunk.representation].add(chunk);
+        } else if (is_silmap_chunk(chunk)) {
+            silmaps_[chunk.representation].add(chunk);
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};
@@ -292,11 +296,15 @@ class Reader {
 
     /// A number is of one representation.
     void check_numbers() {
-        for (const auto& [representation, chunks] : bilevels_) {
-            if (!fbts_.contains(representation)) continue;
-            return findings_.push_back(
-                {FindingCode::RepresentationKinds, 0,
-                 "representation " + std::to_string(representation) + " is an FBT and a bi-level texture at once"});
+        const auto report = [&](std::uint8_t representation, const char* kinds) {
+            findings_.push_back({FindingCode::RepresentationKinds, 0,
+                                 "representation " + std::to_string(representation) + " is " + kinds + " at once"});
+        };
+        for (const auto& [number, chunks] : bilevels_)
+            if (fbts_.contains(number)) return report(number, "an FBT and a bi-level texture");
+        for (const auto& [number, chunks] : silmaps_) {
+            if (fbts_.contains(number)) return report(number, "an FBT and a silhouette-map texture");
+            if (bilevels_.contains(number)) return report(number, "a bi-level and a silhouette-map texture");
         }
     }
 
@@ -311,6 +319,24 @@ class Reader {
         BilevelTexture texture;
         std::vector<Finding> found = read_bilevel(texture, bilevels_.begin()->second, limit_ - findings_.size());
         if (found.empty()) out_.bilevel = std::move(texture);
+        add(std::move(found));
+    }
+
+    void read_silmap_chunks() {
+        for (const auto& [representation, chunks] : silmaps_) {
+            if (!chunks.header || !chunks.cells || !chunks.samples)
+                return findings_.push_back({FindingCode::MissingChunk, 0,
+                                            "representation " + std::to_string(representation) +
+                                                ": a silhouette-map texture needs SLMH, SLMC and SLMS"});
+        }
+        if (silmaps_.empty()) return;
+        SilmapTexture texture;
+        std::vector<Finding> found = read_silmap(texture, silmaps_.begin()->second, limit_ - findings_.size());
+        if (found.empty()) out_.silmap = std::move(texture);
+        add(std::move(found));
+    }
+
+    void add(std::vector<Finding> found) {
         findings_.insert(findings_.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
     }
 
@@ -319,6 +345,7 @@ class Reader {
     const ChunkView* metadata_ = nullptr;
     std::map<std::uint8_t, FbtChunks> fbts_;
     std::map<std::uint8_t, BilevelChunks> bilevels_;
+    std::map<std::uint8_t, SilmapChunks> silmaps_;
     std::vector<Finding> findings_;
 };
 
@@ -340,6 +367,8 @@ std::vector<std::uint8_t> write_file(const FetexFile& file) {
     chunks.push_back({kMeta, 0, kWholeFile, 0, 0, payloads.emplace_back(write_metadata(file.metadata))});
     if (file.fbt) append_fbt_chunks(chunks, *file.fbt, kFbtRepresentation, payloads);
     if (file.bilevel) append_bilevel_chunks(chunks, *file.bilevel, kBilevelRepresentation, !file.fbt, payloads);
+    if (file.silmap)
+        append_silmap_chunks(chunks, *file.silmap, kSilmapRepresentation, !file.fbt && !file.bilevel, payloads);
     return write_container_of_views(chunks);
 }
 

@@ -11,6 +11,7 @@
 #include "formats/bilevel.h"
 #include "formats/container.h"
 #include "formats/fbt.h"
+#include "formats/silmap.h"
 
 namespace fetex {
 
@@ -21,10 +22,12 @@ struct FetexFile {
     Metadata metadata;
     std::optional<FbtTexture> fbt;
     std::optional<BilevelTexture> bilevel = {};
+    std::optional<SilmapTexture> silmap = {};
 };
 
 /// The file's bytes, the same for the same content. Bytes that aren't UTF-8 in metadata become U+FFFD; empty keys are
-/// left out. Preconditions: fbt passes validate_fbt, bilevel validate_bilevel.
+/// left out. Preconditions: fbt passes validate_fbt, bilevel validate_bilevel, silmap
+/// validate_silmap.
 std::vector<std::uint8_t> write_file(const FetexFile& file);
 
 /// Reads and validates everything; the first finding, or nullopt and a complete `out`. Unknown ancillary chunks are

@@ -7,7 +7,8 @@
 
 namespace fetex {
 
-/// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture.
+/// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture, 3xxx of a
+/// silhouette-map texture.
 enum class FindingCode : std::uint16_t {
     Truncated = 101,          ///< the file ends before its stated length
     BadMagic = 102,           ///< not a .fetex file, or mangled by a text transfer
@@ -28,12 +29,15 @@ enum class FindingCode : std::uint16_t {
     UnknownCriticalChunk = 201,
     BadMetadata = 202,      ///< META: counts, lengths, UTF-8, order of keys
     MissingChunk = 203,     ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
-                            ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round
+                            ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round;
+                            ///< likewise SLMH, SLMC, SLMS, SLMM
     BadFbtHeader = 204,     ///< FBTH: length, reserved words, flags
     FbtSizeMismatch = 205,  ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
     BadBilevelHeader = 206, ///< BLVH: length, dimensions, rule, reserved words
     BilevelSizeMismatch = 207, ///< BLVT, BLVI or a level of BLVM has not the length that BLVH asks for
-    RepresentationKinds = 208, ///< one number has chunks of an FBT and of a bi-level texture
+    RepresentationKinds = 208, ///< one number has chunks of two representations
+    BadSilmapHeader = 209,     ///< SLMH: length, dimensions, formats, reserved words
+    SilmapSizeMismatch = 210,  ///< SLMC, SLMS or a level of SLMM has not the length that SLMH asks for
 
     FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
     FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque
@@ -59,10 +63,15 @@ enum class FindingCode : std::uint16_t {
     BilevelDimensions = 2001,       ///< width, height, sides of the image 1 … 16384; lengths of the arrays
     BilevelRuleChannels = 2002,     ///< unknown rule, or not as many channels as it combines
     BilevelNotPremultiplied = 2003, ///< a colour channel of below, above or the image exceeds alpha
+
+    SilmapDimensions = 3001,       ///< width, height 1 … 16384; lengths of the arrays
+    SilmapFormat = 3002,           ///< unknown cell or sample format; a cell of 8 bits with more
+    SilmapNotPremultiplied = 3003, ///< a colour channel exceeds alpha
+    SilmapSampleValue = 3004,      ///< as FbtSampleValue; or alpha that isn't 1 in RGB8
 };
 
-/// One finding. offset: bytes from the start of the file, or, from validate_fbt and validate_bilevel, of the part the
-/// message names.
+/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel and
+/// validate_silmap, of the part the message names.
 struct Finding {
     FindingCode code{};
     std::uint64_t offset = 0;

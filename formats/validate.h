@@ -8,6 +8,7 @@
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
 #include "formats/findings.h"
+#include "formats/silmap.h"
 
 namespace fetex {
 
@@ -30,5 +31,11 @@ inline constexpr std::uint32_t kBilevelMaxSide = 16384; ///< of the texels, and 
 /// Findings, at most `limit`; offsets are bytes from the start of the header, the texels, the mips or the image, as the
 /// message says.
 std::vector<Finding> validate_bilevel(const BilevelTexture& texture, std::size_t limit = 64);
+
+inline constexpr std::uint32_t kSilmapMaxSide = 16384;
+
+/// Findings, at most `limit`; offsets are bytes from the start of the samples as the file has them or of the mips, as
+/// the message says.
+std::vector<Finding> validate_silmap(const SilmapTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex

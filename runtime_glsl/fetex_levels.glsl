@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // What textures with mip levels share: which levels a pixel takes, and interpolation in full precision. Goes once, after a
-// prelude, before fetex_fbt_mip.glsl and fetex_bilevel.glsl. Level 0 is the size of the texture, level k the chunk FBTM or
-// BLVM of level k and GL's level k - 1.
+// prelude, before fetex_fbt_mip.glsl, fetex_bilevel.glsl and fetex_silmap.glsl. Level 0 is the size of the texture, level k the
+// chunk FBTM, BLVM or SLMM of level k and GL's level k - 1.
 
 // Rounded down, exactly; for v > 0.
 int fetexLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }

@@ -36,6 +36,18 @@ GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format
 GLuint make_mip_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
                         std::uint32_t height, GLenum format, std::span<const std::uint8_t> levels);
 
+/// What is uploaded has rows without padding, for as long as it lives.
+class TightRows {
+  public:
+    explicit TightRows(const GladGLContext& gl) : gl_(gl) { gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1); }
+    ~TightRows() { gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4); }
+    TightRows(const TightRows&) = delete;
+    TightRows& operator=(const TightRows&) = delete;
+
+  private:
+    const GladGLContext& gl_;
+};
+
 /// The program's grid for a tile.
 void set_grid(const GladGLContext& gl, const Program& program, const AxisGrid& x, const AxisGrid& y,
               std::uint32_t supersample);

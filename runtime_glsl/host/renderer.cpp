@@ -141,6 +141,10 @@ Outcome<Layer> Renderer::State::bind(Sampler sampler) {
     case Sampler::BilevelArea:
     case Sampler::BilevelMips:
         break;
+    case Sampler::Silmap:
+    case Sampler::SilmapArea:
+    case Sampler::SilmapMips:
+        return bind_silmap(sampler);
     }
     const BilevelProgram kind = sampler == Sampler::Bilevel       ? BilevelProgram::Hard
                                 : sampler == Sampler::BilevelArea ? BilevelProgram::Soft

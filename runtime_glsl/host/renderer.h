@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Draws an FBT, a bi-level texture, or a plain bitmap to compare them with, off screen. No GL library is linked: a
-/// back end is opened with dlopen when it is asked for. Every pixel centre is computed in 32.32 fixed point
-/// (sample_grid.h), on the GPU and on the CPU alike: a view may be as deep as wanted.
+/// Draws an FBT, a bi-level texture, a silhouette-map texture, or a plain bitmap to compare them with, off screen. No
+/// GL library is linked: a back end is opened with dlopen when it is asked for. Every pixel centre is computed in 32.32
+/// fixed point (sample_grid.h), on the GPU and on the CPU alike: a view may be as deep as wanted.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/silmap.h"
 #include "runtime_glsl/host/image.h"
 #include "runtime_glsl/host/shader_source.h"
 
@@ -43,6 +44,9 @@ enum class Sampler : std::uint8_t {
     Bilevel,     ///< the bi-level texture, cut hard
     BilevelArea, ///< cut softly
     BilevelMips, ///< its levels, whatever the view
+    Silmap,      ///< the silhouette-map texture at points
+    SilmapArea,  ///< over pixels
+    SilmapMips,  ///< its levels, whatever the view
 };
 
 /// How a bi-level texture is interpolated.
@@ -86,6 +90,11 @@ class Renderer {
     /// The largest error of the hardware's LINEAR filter at 2^12 places between a black and a white texel of R8.
     Outcome<double> linear_filter_error();
 
+    /// Uploads the texture and builds the shader that it needs. Precondition: the texture passes validate_silmap.
+    RuntimeStatus upload_silmap(const SilmapTexture& texture, SilmapFilter filter = SilmapFilter::Filtered);
+    /// Filter::Point samples points, Area and ExactArea, which is one and the same, pixels.
+    Outcome<Image> render_silmap(const View& view, const RenderSize& size);
+
     /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     [[nodiscard]] bool has_bitmap() const;
@@ -115,6 +124,9 @@ Outcome<Image> render_cpu(const FbtTexture& texture, const View& view, const Ren
 /// The same through bilevel_sample_local, bilevel_sample_area_local or bilevel_sample_mip.
 Outcome<Image> render_cpu(const BilevelTexture& texture, const View& view, const RenderSize& size,
                           unsigned threads = 0);
+/// The same through silmap_sample_local, silmap_sample_area_local or silmap_sample_mip.
+Outcome<Image> render_cpu(const SilmapTexture& texture, const View& view, const RenderSize& size,
+                          SilmapFilter filter = SilmapFilter::Filtered, unsigned threads = 0);
 /// As Renderer::render_bitmap, on the CPU.
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,
                                  std::uint32_t bitmap_height, const View& view, const RenderSize& size);

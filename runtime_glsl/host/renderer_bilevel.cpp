@@ -19,18 +19,6 @@ struct ByteFormat {
 };
 constexpr ByteFormat kByteFormats[] = {{GL_R8, GL_RED}, {GL_RG8, GL_RG}, {GL_RGB8, GL_RGB}};
 
-/// Rows of bytes without padding, for as long as it lives.
-class TightRows {
-  public:
-    explicit TightRows(const GladGLContext& gl) : gl_(gl) { gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1); }
-    ~TightRows() { gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4); }
-    TightRows(const TightRows&) = delete;
-    TightRows& operator=(const TightRows&) = delete;
-
-  private:
-    const GladGLContext& gl_;
-};
-
 /// Of the texture that is bound.
 void set_filter(const GladGLContext& gl, GLint filter) {
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 /// What a renderer holds. Internal to the host library; one file defines the part of each representation
-/// (renderer_fbt.cpp, renderer_bilevel.cpp), renderer.cpp the rest. A context is current in every function.
+/// (renderer_fbt.cpp, renderer_bilevel.cpp, renderer_silmap.cpp), renderer.cpp the rest. A context is current in every
+/// function.
 #pragma once
 
 #include <array>
@@ -28,6 +29,15 @@ struct BilevelLayer {
 };
 enum class BilevelProgram : std::uint8_t { Hard, Soft, Mips };
 
+/// A silhouette-map texture as it was uploaded.
+struct SilmapLayer {
+    std::array<Program, 3> programs; ///< by SilmapProgram; compiled when they are first wanted
+    GLuint cells = 0, colors = 0, mips = 0;
+    SilmapTexture traits; ///< dimensions and what shaders depend on; of mips one element, if there are any
+    SilmapFilter filter = SilmapFilter::Filtered;
+};
+enum class SilmapProgram : std::uint8_t { Point, Area, Mips };
+
 struct Renderer::State {
     std::unique_ptr<GlContext> context;
     RendererOptions options;
@@ -42,6 +52,7 @@ struct Renderer::State {
     std::uint32_t fbt_width = 0, fbt_height = 0, bitmap_width = 0, bitmap_height = 0, field_width = 0, field_height = 0;
 
     BilevelLayer bilevel;
+    SilmapLayer silmap;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
@@ -65,6 +76,18 @@ struct Renderer::State {
     RuntimeStatus upload_bilevel(const BilevelTexture& texture, BilevelFetch fetch);
     void bind_bilevel() const;
     Outcome<double> linear_filter_error();
+    RuntimeStatus check_silmap(const SilmapTexture& texture) const;
+    void delete_silmap();
+    Outcome<Program> build_silmap(const SilmapTexture& traits, SilmapFilter filter, SilmapProgram kind) const;
+    RuntimeStatus need_silmap_program(SilmapProgram kind);
+    [[nodiscard]] const Program& silmap_program(SilmapProgram kind) const {
+        return silmap.programs[static_cast<std::size_t>(kind)];
+    }
+    void upload_silmap_cells(const SilmapTexture& texture);
+    void upload_silmap_colors(const SilmapTexture& texture);
+    RuntimeStatus upload_silmap(const SilmapTexture& texture, SilmapFilter filter);
+    void bind_silmap() const;
+    Outcome<Layer> bind_silmap(Sampler sampler);
     RuntimeStatus need_bitmap_programs();
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,

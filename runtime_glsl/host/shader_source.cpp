@@ -140,6 +140,29 @@ std::string bilevel_mip_fragment_source(Dialect dialect, const BilevelTexture& t
     return bilevel_source(dialect, texture, filtered, true) + file_text("bilevel_mip.frag.glsl");
 }
 
+std::string silmap_specialisation(const SilmapTexture& texture, SilmapFilter filter) {
+    return define("FETEX_SILMAP_BITS", texture.cell_format == SilmapCellFormat::Bits8 ? 3 : 7) +
+           define("FETEX_SILMAP_SAMPLES", texture.sample_format == SilmapSampleFormat::Rgba16) +
+           define("FETEX_SILMAP_FILTERED", filter == SilmapFilter::Filtered) +
+           define("FETEX_SILMAP_MIPS", !texture.mips.empty());
+}
+
+std::string silmap_library_source(Dialect dialect, const SilmapTexture& texture, SilmapFilter filter) {
+    return shader_prelude(dialect) + silmap_specialisation(texture, filter) +
+           (texture.mips.empty() ? "" : file_text("fetex_levels.glsl")) + file_text("fetex_silmap.glsl");
+}
+
+std::string silmap_fragment_source(Dialect dialect, const SilmapTexture& texture, Filter filter,
+                                   SilmapFilter silmap_filter) {
+    return silmap_library_source(dialect, texture, silmap_filter) + file_text("view.glsl") +
+           file_text(filter == Filter::Point ? "silmap.frag.glsl" : "silmap_area.frag.glsl");
+}
+
+std::string silmap_mip_fragment_source(Dialect dialect, const SilmapTexture& texture, SilmapFilter silmap_filter) {
+    return silmap_library_source(dialect, texture, silmap_filter) + define("FETEX_VIEW_FOOTPRINT", 1) +
+           file_text("view.glsl") + file_text("silmap_mip.frag.glsl");
+}
+
 std::string bitmap_fragment_source(Dialect dialect) {
     return shader_prelude(dialect) + file_text("view.glsl") + file_text("bitmap.frag.glsl");
 }

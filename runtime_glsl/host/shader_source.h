@@ -8,6 +8,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/silmap.h"
 #include "runtime_glsl/host/image.h"
 
 namespace fetex {
@@ -43,8 +44,17 @@ std::string bilevel_specialisation(const BilevelTexture& texture, bool filtered 
 /// Prelude, specialisation, fetex_levels.glsl and fetex_bilevel.glsl, to be followed by a fragment shader.
 std::string bilevel_library_source(Dialect dialect, const BilevelTexture& texture, bool filtered = false);
 
+/// The macros that fit fetex_silmap.glsl to an asset. Only the formats of the texture are looked at, and whether it has
+/// levels.
+std::string silmap_specialisation(const SilmapTexture& texture, SilmapFilter filter = SilmapFilter::Filtered);
+
+/// Prelude, specialisation and fetex_silmap.glsl, to be followed by a fragment shader.
+std::string silmap_library_source(Dialect dialect, const SilmapTexture& texture,
+                                  SilmapFilter filter = SilmapFilter::Filtered);
+
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bi-level
-/// texture without its levels (Point: cut hard, else softly) and with them, the bitmap in full precision, the bitmap
+/// texture without its levels (Point: cut hard, else softly) and with them, the silhouette-map texture likewise (Point:
+/// at points, else over pixels), the bitmap in full precision, the bitmap
 /// through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
@@ -54,6 +64,10 @@ std::string fbt_mip_fragment_source(Dialect dialect, const FbtTexture& texture, 
 std::string bilevel_fragment_source(Dialect dialect, const BilevelTexture& texture, Filter filter = Filter::Point,
                                     bool filtered = false);
 std::string bilevel_mip_fragment_source(Dialect dialect, const BilevelTexture& texture, bool filtered = false);
+std::string silmap_fragment_source(Dialect dialect, const SilmapTexture& texture, Filter filter = Filter::Point,
+                                   SilmapFilter silmap_filter = SilmapFilter::Filtered);
+std::string silmap_mip_fragment_source(Dialect dialect, const SilmapTexture& texture,
+                                       SilmapFilter silmap_filter = SilmapFilter::Filtered);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

@@ -246,6 +246,92 @@ TEST_F(Shaders, ofBilevelTexturesHaveWhatTheAssetNeeds) {
             ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
 }
 
+/// All formats that shaders tell apart, with and without levels, nearest and filtered.
+std::vector<std::pair<SilmapTexture, SilmapFilter>> all_silmaps() {
+    std::vector<std::pair<SilmapTexture, SilmapFilter>> all;
+    for (const SilmapCellFormat cells : {SilmapCellFormat::Bits8, SilmapCellFormat::Bits16}) {
+        for (const SilmapSampleFormat samples : {SilmapSampleFormat::Rgba8, SilmapSampleFormat::Rgba16}) {
+            for (std::uint32_t switches = 0; switches < 4; ++switches) {
+                SilmapTexture t;
+                t.cell_format = cells, t.sample_format = samples;
+                if (switches & 1u) t.mips = {0};
+                all.emplace_back(t, switches & 2u ? SilmapFilter::Nearest : SilmapFilter::Filtered);
+            }
+        }
+    }
+    return all;
+}
+
+TEST_F(Shaders, ofSilmapTexturesCompileInEveryDialect) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    for (const Dialect dialect : kDialects) {
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const auto& [texture, silmap] : all_silmaps()) {
+            for (const Filter filter : {Filter::Point, Filter::Area})
+                EXPECT_EQ(run(silmap_fragment_source(dialect, texture, filter, silmap), "silmap.frag", tool), "");
+            if (!texture.mips.empty()) {
+                EXPECT_EQ(run(silmap_mip_fragment_source(dialect, texture, silmap), "mip.frag", tool), "");
+            }
+        }
+    }
+}
+
+/// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
+TEST_F(Shaders, ofSilmapTexturesCompileByHand) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
+    const std::string main_text = "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+                                  "void main() { color = fetexSilmapSample(uv) + fetexSilmapSampleArea(uv, vec2(0.1))\n"
+                                  "#if FETEX_SILMAP_MIPS\n    + fetexSilmapSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
+    std::stringstream library;
+    library << std::ifstream(root + "fetex_levels.glsl").rdbuf() << std::ifstream(root + "fetex_silmap.glsl").rdbuf();
+    ASSERT_GT(library.str().size(), 5000u);
+    for (const Dialect dialect : kDialects) {
+        std::stringstream prelude;
+        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const char* macros :
+             {"", "#define FETEX_SILMAP_BITS 7\n#define FETEX_SILMAP_MIPS 1\n", "#define FETEX_SILMAP_SAMPLES 1\n",
+              "#define FETEX_SILMAP_FILTERED 0\n", "#define FETEX_SILMAP_GATHER 0\n"})
+            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
+        if (dialect != Dialect::Vulkan450) continue; // the others have it as it is, or not at all
+        EXPECT_EQ(
+            run(prelude.str() + "#define FETEX_SILMAP_GATHER 1\n" + library.str() + main_text, "plain.frag", tool), "");
+    }
+}
+
+TEST_F(Shaders, ofSilmapTexturesCrossToHlslMetalAndEs) {
+    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
+        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    const fs::path binary = folder_ / "shader.spv";
+    for (const auto& [texture, silmap] : all_silmaps()) {
+        const std::string source = texture.mips.empty()
+                                       ? silmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, silmap)
+                                       : silmap_mip_fragment_source(Dialect::Vulkan450, texture, silmap);
+        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
+        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
+            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
+        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
+        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+    }
+}
+
+TEST_F(Shaders, ofSilmapTexturesHaveWhatTheAssetNeeds) {
+    SilmapTexture t;
+    t.cell_format = SilmapCellFormat::Bits16, t.sample_format = SilmapSampleFormat::Rgba16, t.mips = {0};
+    EXPECT_EQ(silmap_specialisation(t, SilmapFilter::Nearest),
+              "#define FETEX_SILMAP_BITS 7\n#define FETEX_SILMAP_SAMPLES 1\n#define FETEX_SILMAP_FILTERED 0\n"
+              "#define FETEX_SILMAP_MIPS 1\n");
+    EXPECT_EQ(silmap_specialisation({}),
+              "#define FETEX_SILMAP_BITS 3\n#define FETEX_SILMAP_SAMPLES 0\n#define FETEX_SILMAP_FILTERED 1\n"
+              "#define FETEX_SILMAP_MIPS 0\n");
+    for (const Dialect dialect : kDialects)
+        for (const char c : silmap_mip_fragment_source(dialect, t) + silmap_fragment_source(dialect, t, Filter::Area))
+            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+}
+
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
