@@ -89,7 +89,7 @@ void warn(const BilevelStats& stats, std::vector<Diagnostic>& diagnostics) {
         fmt::format("parts show that the silhouette hasn't; one is at u,v {:.4f},{:.4f}", parts.invented_u,
                     parts.invented_v));
     add(stats.edges_varying, diag::kBilevelColorsVary,
-        "edges of the silhouette have colours that vary along them, cut by those of their middles");
+        "edges of the silhouette have colours that vary: what they bound is above or below as a whole");
 }
 
 } // namespace

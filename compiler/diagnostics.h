@@ -86,7 +86,7 @@ inline constexpr int kNotTwoColors = 5011;   ///< a bi-level texture of a drawin
 inline constexpr int kNoSuchElement = 5012;  ///< --silhouette names an element that isn't drawn
 inline constexpr int kBilevelPartsLost = 5101;  ///< parts of a silhouette that its texture doesn't show: thinner than its texels (count)
 inline constexpr int kBilevelPartsFalse = 5102; ///< parts that a bi-level texture shows and the silhouette hasn't (count)
-inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette along which colours vary: cut by those of their middles (count)
+inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette whose colours vary: what they bound is above or below as a whole, by the mean along its edges (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

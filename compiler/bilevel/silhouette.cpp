@@ -2,6 +2,7 @@
 #include "compiler/bilevel/silhouette.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -34,62 +35,91 @@ void reverse(VisibleEdge& e) {
     std::swap(e.left, e.right);
 }
 
+/// Where nothing else decides: results' ids don't, they depend on which thread came first.
+std::array<double, 4> order_of(const Rgba& c) { return {c.r, c.g, c.b, c.a}; }
+
 /// The scene's results, told apart by a rule.
 class SceneSilhouette {
   public:
     SceneSilhouette(const Scene& scene, SilhouetteRule::Kind kind) : scene_(scene), kind_(kind), compositor_(scene) {}
 
     Result<Silhouette> find(unsigned threads) {
-        auto edges = visible_edges(scene_, compositor_, threads);
+        ResultId somewhere = 0;
+        auto edges = visible_edges(scene_, compositor_, threads, &somewhere);
         if (!edges) return edges.error();
         for (const VisibleEdge& e : edges.value()) {
-            const double length = chord(e);
-            length_[e.left] += length, length_[e.right] += length;
+            for (const ResultId r : {e.left, e.right})
+                see(r, e);
         }
         if (kind_ == SilhouetteRule::Kind::TwoColors) {
             if (const Status two = find_two_colors(); !two) return two.error();
+        }
+        if (seen_.empty()) {
+            const CanvasPoint middle{scene_.extent.width / 2, scene_.extent.height / 2};
+            seen_[somewhere].color = compositor_.color(somewhere, middle);
         }
         Silhouette out;
         out.height = scene_.extent.height / scene_.extent.width;
         for (VisibleEdge& e : edges.value())
             add(e, out);
+        out.above_everywhere = out.edges.empty() && is_above(seen_.begin()->first);
         choose_colors(out);
         return out;
     }
 
   private:
-    [[nodiscard]] Rgba color(ResultId r, const VisibleEdge& e) const {
+    /// A result along its edges.
+    struct Seen {
+        double length = 0;
+        Rgba sum;   ///< colours that vary, in the middles of the edges, times their lengths
+        Rgba color; ///< the one that it has, or the mean
+    };
+
+    void see(ResultId r, const VisibleEdge& e) {
+        Seen& seen = seen_[r];
+        const double length = chord(e);
+        seen.length += length;
+        if (compositor_.is_solid(r)) {
+            seen.color = compositor_.color(r, {});
+            return;
+        }
         const WidthPoint p = point_on(e, 0.5);
-        return compositor_.color(r, {p.x * scene_.extent.width, p.y * scene_.extent.width});
+        const Rgba c = compositor_.color(r, {p.x * scene_.extent.width, p.y * scene_.extent.width});
+        Rgba& sum = seen.sum;
+        sum = {sum.r + length * c.r, sum.g + length * c.g, sum.b + length * c.b, sum.a + length * c.a};
+        const double n = seen.length;
+        seen.color = n > 0 ? Rgba{sum.r / n, sum.g / n, sum.b / n, sum.a / n} : c;
     }
 
     Status find_two_colors() {
         const auto wrong = [](const char* what) {
             return Error{ErrorClass::Unsupported, diag::kNotTwoColors, what, "--silhouette"};
         };
-        if (length_.size() != 2) {
-            return wrong(length_.size() < 2 ? "the drawing has one colour: nothing to show"
-                                            : "the drawing has more than two colours: choose a silhouette");
+        if (seen_.size() != 2) {
+            return wrong(seen_.size() < 2 ? "the drawing has one colour: nothing to show"
+                                          : "the drawing has more than two colours: choose a silhouette");
         }
-        for (const auto& [result, length] : length_) {
+        for (const auto& [result, seen] : seen_) {
             if (!compositor_.is_solid(result)) return wrong("the drawing's colours vary: choose a silhouette");
         }
-        const ResultId a = length_.begin()->first, b = length_.rbegin()->first;
-        const Rgba ca = compositor_.color(a, {}), cb = compositor_.color(b, {});
-        const bool first = ca.a != cb.a ? ca.a > cb.a : luma_over_white(ca) < luma_over_white(cb);
+        const auto& [a, seen_a] = *seen_.begin();
+        const auto& [b, seen_b] = *seen_.rbegin();
+        const Rgba &ca = seen_a.color, &cb = seen_b.color;
+        const double la = luma_over_white(ca), lb = luma_over_white(cb);
+        const bool first = ca.a != cb.a ? ca.a > cb.a : la != lb ? la < lb : order_of(ca) < order_of(cb);
         above_result_ = first ? a : b;
         return {};
     }
 
-    [[nodiscard]] bool is_above(ResultId r, const VisibleEdge& e) const {
+    /// Of a result as a whole, also where its colours vary: the outline is closed.
+    [[nodiscard]] bool is_above(ResultId r) const {
         if (kind_ == SilhouetteRule::Kind::TwoColors) return r == above_result_;
-        const Rgba c = color(r, e);
+        const Rgba& c = seen_.at(r).color;
         return kind_ == SilhouetteRule::Kind::Luminance ? luma_over_white(c) < kCut : c.a > kCut;
     }
 
-    void add(VisibleEdge e, Silhouette& out) {
-        const bool left = is_above(e.left, e), right = is_above(e.right, e);
-        above_length_[left ? 1 : 0][e.left] += chord(e), above_length_[right ? 1 : 0][e.right] += chord(e);
+    void add(VisibleEdge e, Silhouette& out) const {
+        const bool left = is_above(e.left), right = is_above(e.right);
         if (left == right) return;
         if (!compositor_.is_solid(e.left) || !compositor_.is_solid(e.right)) ++out.edges_varying;
         if (right) reverse(e);
@@ -97,24 +127,23 @@ class SceneSilhouette {
         out.edges.push_back(e);
     }
 
-    /// Of each side the result with the longest edges, where it isn't solid in the middle of the canvas.
+    /// Of each side that of the result with the longest edges.
     void choose_colors(Silhouette& out) const {
-        const CanvasPoint middle{scene_.extent.width / 2, scene_.extent.height / 2};
-        for (std::size_t side = 0; side < 2; ++side) {
-            double longest = -1;
-            for (const auto& [result, length] : above_length_[side]) {
-                if (length <= longest) continue;
-                longest = length;
-                (side == 1 ? out.above : out.below) = compositor_.color(result, middle);
-            }
+        const Seen* chosen[2] = {nullptr, nullptr};
+        for (const auto& [result, seen] : seen_) {
+            const Seen*& c = chosen[is_above(result) ? 1 : 0];
+            if (c == nullptr || seen.length > c->length ||
+                (seen.length == c->length && order_of(seen.color) < order_of(c->color)))
+                c = &seen;
         }
+        if (chosen[0] != nullptr) out.below = chosen[0]->color;
+        if (chosen[1] != nullptr) out.above = chosen[1]->color;
     }
 
     const Scene& scene_;
     SilhouetteRule::Kind kind_;
     Compositor compositor_;
-    std::map<ResultId, double> length_;
-    std::map<ResultId, double> above_length_[2];
+    std::map<ResultId, Seen> seen_;
     ResultId above_result_ = 0;
 };
 

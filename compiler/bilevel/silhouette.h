@@ -19,14 +19,16 @@ struct Silhouette {
     std::vector<VisibleEdge> edges; ///< left = 1, right = 0; neighbours share their end points bit for bit
     bool above_everywhere = false;  ///< where there is no edge at all
     double pixelated = 0;           ///< width units: side of the pixels that the outline comes from; 0: none
-    Rgba below, above; ///< premultiplied; of several on a side that with the longest edges, of a bitmap the mean
-    std::uint64_t edges_varying = 0; ///< edges with a colour that isn't solid on a side: cut where the middle is
+    Rgba below, above; ///< premultiplied; of several on a side that with the longest edges, of those that vary the mean
+                       ///< along their edges, of a bitmap the mean
+    std::uint64_t edges_varying = 0; ///< edges with a colour that isn't solid on a side
 };
 
 /// 0 black … 1 white: of premultiplied, sRGB-encoded colours (weights of ITU-R BT.709).
 inline double luma_over_white(const Rgba& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + (1 - c.a); }
 
-/// What is above.
+/// What is above. Of a drawing, each shape's paint over the same others as a whole: one that varies is told by the mean
+/// along its edges.
 struct SilhouetteRule {
     enum class Kind : std::uint8_t {
         TwoColors, ///< the scene has two visible colours; the more opaque of them, else the darker

@@ -66,7 +66,8 @@ Error inconsistent_map() {
             "the planar map contradicts itself; please report this file", ""};
 }
 
-Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads) {
+Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads,
+                                               ResultId* somewhere) {
     const Extent& e = scene.extent;
     const std::int64_t longer = std::max(e.lattice_w, e.lattice_h);
     const Grid grid = make_grid(e, cells_for(e.lattice_w, longer), cells_for(e.lattice_h, longer));
@@ -75,10 +76,15 @@ Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& c
     if (!map) return map.error();
     const EdgeWriter writer(map.value(), e.height / e.width);
     std::vector<std::vector<VisibleEdge>> rows(grid.height);
+    std::vector<ResultId> of_row(grid.height);
     const bool good = for_each_texel(
-        map.value(), scene, compositor, threads, [](std::uint32_t, std::uint32_t, ResultId) {},
-        [&](const TexelMap& texel) { writer.write(texel, rows[texel.j]); });
+        map.value(), scene, compositor, threads, [&](std::uint32_t, std::uint32_t j, ResultId r) { of_row[j] = r; },
+        [&](const TexelMap& texel) {
+            writer.write(texel, rows[texel.j]);
+            if (!texel.sweep.portions.empty()) of_row[texel.j] = texel.left_result(texel.sweep.portions.front());
+        });
     if (!good) return inconsistent_map();
+    if (somewhere != nullptr) *somewhere = of_row.front();
     std::vector<VisibleEdge> edges;
     for (const std::vector<VisibleEdge>& row : rows)
         edges.insert(edges.end(), row.begin(), row.end());

@@ -51,8 +51,10 @@ bool for_each_texel(const PlanarMap& map, const Scene& scene, Compositor& compos
     return std::find(good.begin(), good.end(), 0) == good.end();
 }
 
-/// The planar map at a size that no edge on the lattice can run along a line of: see visible_edges.cpp.
-Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads);
+/// The planar map at a size that no edge on the lattice can run along a line of: see visible_edges.cpp. somewhere, if
+/// not null, gets a result of the canvas: the only one where there are no edges.
+Result<std::vector<VisibleEdge>> visible_edges(const Scene& scene, Compositor& compositor, unsigned threads,
+                                               ResultId* somewhere = nullptr);
 
 [[nodiscard]] Error inconsistent_map();
 
