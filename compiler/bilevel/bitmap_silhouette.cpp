@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "compiler/bilevel/edge_lines.h"
 #include "compiler/bilevel/silhouette.h"
@@ -29,7 +30,7 @@ class Field {
 
     /// 0 and 1 become the two levels around which the values lie.
     void find_levels() {
-        double low = 0, high = 1;
+        auto [low, high] = range();
         for (int round = 0; round < 8; ++round) {
             double sum[2] = {0, 0};
             std::size_t count[2] = {0, 0};
@@ -62,6 +63,15 @@ class Field {
     [[nodiscard]] double raw(std::uint32_t x, std::uint32_t y) const {
         const Rgba c = image_.at(x, y);
         return alpha_ ? c.a : 1 - luma_over_white(c); // darkness
+    }
+    /// Least and most.
+    [[nodiscard]] std::pair<double, double> range() const {
+        double low = raw(0, 0), high = low;
+        for (std::uint32_t y = 0; y < image_.height; ++y) {
+            for (std::uint32_t x = 0; x < image_.width; ++x)
+                low = std::min(low, raw(x, y)), high = std::max(high, raw(x, y));
+        }
+        return {low, high};
     }
     template <class Takes> [[nodiscard]] double mean_of(const Takes& takes, double otherwise) const {
         double sum = 0;
