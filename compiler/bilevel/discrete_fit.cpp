@@ -60,7 +60,7 @@ class ByteFit {
                 const Place p = place(t, c);
                 const int away = values_[p.value] < 128 ? -1 : 1;
                 for (int step = kLargestStep; step > 0; step /= 4) {
-                    while (stays_right(p, away * step)) {
+                    while (move(p.cells, values_[p.value], away * step, budget::kWorthAByte)) {
                     }
                 }
             }
@@ -90,26 +90,33 @@ class ByteFit {
         return cells_.wrong_area_in(values_, cells_.cells()[cell]);
     }
 
-    /// Goes on in the direction as long as it helps.
-    bool descend(const CellsAround& around, std::uint8_t& v, int by, double& least) {
-        bool any = false;
-        for (;;) {
-            const std::uint8_t before = v;
-            v = moved(v, by, greys_);
-            if (v == before) return any;
-            ++tried;
-            std::array<double, 4> area;
-            double sum = 0;
-            for (std::size_t k = 0; k < around.size(); ++k)
-                sum += area[k] = area_in(around[k]);
-            if (!(sum < least - budget::kWorthAByte)) {
-                v = before;
-                return any;
-            }
-            least = sum, any = true;
-            for (std::size_t k = 0; k < around.size(); ++k)
-                areas_[around[k]] = area[k];
+    /// Moves a byte if that changes the wrong area in the cells around it by less than `most`.
+    bool move(const CellsAround& around, std::uint8_t& v, int by, double most) {
+        const std::uint8_t before = v;
+        v = moved(v, by, greys_);
+        if (v == before) return false;
+        ++tried;
+        std::array<double, 4> area;
+        double change = 0;
+        for (std::size_t k = 0; k < around.size(); ++k) {
+            area[k] = area_in(around[k]);
+            change += area[k] - areas_[around[k]];
         }
+        if (!(change < most)) {
+            v = before;
+            return false;
+        }
+        for (std::size_t k = 0; k < around.size(); ++k)
+            areas_[around[k]] = area[k];
+        return true;
+    }
+
+    /// Goes on in the direction as long as it helps.
+    bool descend(const CellsAround& around, std::uint8_t& v, int by) {
+        bool any = false;
+        while (move(around, v, by, -budget::kWorthAByte))
+            any = true;
+        return any;
     }
 
     /// Whether the byte stays open.
@@ -117,16 +124,16 @@ class ByteFit {
         Byte& byte = bytes_[std::size_t{number_[texel]} * cells_.channels() + channel];
         if (!byte.open) return false;
         const CellsAround around = cells_.around(texel);
-        double least = 0;
+        double area = 0;
         for (const std::uint32_t c : around)
-            least += areas_[c];
+            area += areas_[c];
         std::uint8_t& v = values_[std::size_t{texel} * cells_.channels() + channel];
-        if (least > 0 && (descend(around, v, byte.step, least) || descend(around, v, -byte.step, least))) {
+        if (area > 0 && (descend(around, v, byte.step) || descend(around, v, -byte.step))) {
             byte.step = static_cast<std::int16_t>(std::min(kLargestStep, 2 * byte.step));
             open_around(texel, channel);
             return true;
         }
-        byte.open = least > 0 && byte.step > 1;
+        byte.open = area > 0 && byte.step > 1;
         byte.step = static_cast<std::int16_t>(std::max(1, byte.step / 2));
         return byte.open;
     }
@@ -227,28 +234,6 @@ class ByteFit {
         for (std::size_t k = 0; k < count; ++k)
             areas_[after[k].first] = after[k].second;
         open_around(a.texel, a.channel), open_around(b.texel, b.channel);
-        return true;
-    }
-
-    /// Moves a byte if that makes the wrong area no larger.
-    bool stays_right(const Place& p, int by) {
-        std::uint8_t& v = values_[p.value];
-        const std::uint8_t before = v;
-        v = moved(v, by, greys_);
-        if (v == before) return false;
-        ++tried;
-        std::array<double, 4> area;
-        double change = 0;
-        for (std::size_t k = 0; k < p.cells.size(); ++k) {
-            area[k] = area_in(p.cells[k]);
-            change += area[k] - areas_[p.cells[k]];
-        }
-        if (change > budget::kWorthAByte) {
-            v = before;
-            return false;
-        }
-        for (std::size_t k = 0; k < p.cells.size(); ++k)
-            areas_[p.cells[k]] = area[k];
         return true;
     }
 
