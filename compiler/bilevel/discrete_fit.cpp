@@ -90,6 +90,14 @@ class ByteFit {
         return cells_.wrong_area_in(values_, cells_.cells()[cell]);
     }
 
+    /// What becomes of a change if nothing stays wrong in the cells from the k-th on. Never more than what does,
+    /// rounded as it is.
+    [[nodiscard]] double least_change(double change, const CellsAround& around, std::size_t k) const {
+        for (; k < around.size(); ++k)
+            change -= areas_[around[k]];
+        return change;
+    }
+
     /// Moves a byte if that changes the wrong area in the cells around it by less than `most`.
     bool move(const CellsAround& around, std::uint8_t& v, int by, double most) {
         const std::uint8_t before = v;
@@ -99,6 +107,10 @@ class ByteFit {
         std::array<double, 4> area;
         double change = 0;
         for (std::size_t k = 0; k < around.size(); ++k) {
+            if (!(least_change(change, around, k) < most)) {
+                v = before;
+                return false;
+            }
             area[k] = area_in(around[k]);
             change += area[k] - areas_[around[k]];
         }

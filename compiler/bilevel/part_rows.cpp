@@ -22,25 +22,50 @@ class TextureRows {
     [[nodiscard]] Rows take() { return std::move(out_); }
 
   private:
+    /// A cell's corners, upper and lower.
+    struct Corners {
+        std::uint32_t i = 0;
+        LineValues upper, lower;
+    };
+
     void add_cell_row(std::uint32_t j) {
         cells_.clear();
         for (std::uint32_t i = window_.first_column; i < window_.last_column; ++i) {
-            if (i == window_.first_column || is_mixed(i, j)) cells_.push_back(i);
+            const Corners c = corners(i, j);
+            if (i == window_.first_column || is_mixed(c)) cells_.push_back(c);
         }
         const std::uint32_t end = first_row_of(j + 1, texture_.height, per_texel_);
         for (std::uint32_t n = first_row_of(j, texture_.height, per_texel_); n < end; ++n)
             add_row(j, n);
     }
 
-    [[nodiscard]] bool is_mixed(std::uint32_t i, std::uint32_t j) const {
-        for (std::uint32_t c = 0; c < fetex::bilevel_channels(texture_.rule); ++c) {
-            const auto above = [&](std::uint32_t di, std::uint32_t dj) {
-                return texture_.value(std::int64_t{i} - 1 + di, std::int64_t{j} - 1 + dj, c) > 0.5F;
-            };
-            const bool first = above(0, 0);
-            if (above(1, 0) != first || above(0, 1) != first || above(1, 1) != first) return true;
+    [[nodiscard]] Corners corners(std::uint32_t i, std::uint32_t j) const {
+        Corners out{i, {}, {}};
+        const std::int64_t left = std::int64_t{i} - 1, above = std::int64_t{j} - 1;
+        for (std::uint32_t c = 0; c < texture_.channels; ++c) {
+            out.upper.from[c] = texture_.value(left, above, c), out.upper.to[c] = texture_.value(i, above, c);
+            out.lower.from[c] = texture_.value(left, j, c), out.lower.to[c] = texture_.value(i, j, c);
+        }
+        return out;
+    }
+
+    [[nodiscard]] bool is_mixed(const Corners& corners) const {
+        for (std::uint32_t c = 0; c < texture_.channels; ++c) {
+            const bool first = corners.upper.from[c] > 0.5F;
+            if ((corners.upper.to[c] > 0.5F) != first || (corners.lower.from[c] > 0.5F) != first ||
+                (corners.lower.to[c] > 0.5F) != first)
+                return true;
         }
         return false;
+    }
+
+    [[nodiscard]] LineValues between(const Corners& corners, float across) const {
+        LineValues out;
+        for (std::uint32_t c = 0; c < texture_.channels; ++c) {
+            out.from[c] = corners.upper.from[c] + (corners.lower.from[c] - corners.upper.from[c]) * across;
+            out.to[c] = corners.upper.to[c] + (corners.lower.to[c] - corners.upper.to[c]) * across;
+        }
+        return out;
     }
 
     void add_row(std::uint32_t j, std::uint32_t n) {
@@ -48,20 +73,12 @@ class TextureRows {
         const auto across = static_cast<float>((n + 0.5) / per_texel_ - origin);
         double from = std::max(window_.first_column - 0.5, 0.0);
         bool now = false;
-        for (const std::uint32_t i : cells_) {
-            LineValues v;
-            for (std::uint32_t c = 0; c < fetex::bilevel_channels(texture_.rule); ++c) {
-                const auto between = [&](std::int64_t column) {
-                    const float v0 = texture_.value(column, std::int64_t{j} - 1, c), v1 = texture_.value(column, j, c);
-                    return v0 + (v1 - v0) * across;
-                };
-                v.from[c] = between(std::int64_t{i} - 1), v.to[c] = between(i);
-            }
-            const float low = i == 0 ? 0.5F : 0, high = i == texture_.width ? 0.5F : 1;
-            const TextureCrossings t = texture_crossings(texture_.rule, v, low, high);
-            if (i == window_.first_column) now = t.above_first;
+        for (const Corners& c : cells_) {
+            const float low = c.i == 0 ? 0.5F : 0, high = c.i == texture_.width ? 0.5F : 1;
+            const TextureCrossings t = texture_crossings(texture_.rule, between(c, across), low, high);
+            if (c.i == window_.first_column) now = t.above_first;
             for (std::uint32_t k = 0; k < t.count; ++k) {
-                const double at = i - 0.5 + static_cast<double>(t.at[k]);
+                const double at = c.i - 0.5 + static_cast<double>(t.at[k]);
                 out_.add(from, at, now);
                 from = std::max(from, at), now = !now;
             }
@@ -73,7 +90,7 @@ class TextureRows {
     const TextureValues& texture_;
     const Window& window_;
     std::uint32_t per_texel_;
-    std::vector<std::uint32_t> cells_; ///< of the row that aren't all alike, and the first
+    std::vector<Corners> cells_; ///< of the row that aren't all alike, and the first
     Rows out_;
 };
 

@@ -30,13 +30,14 @@ struct TextureValues {
     std::span<const std::uint8_t> values;
     std::uint32_t width = 0, height = 0;
     fetex::BilevelRule rule = fetex::BilevelRule::Single;
+    std::uint32_t channels = fetex::bilevel_channels(rule);
 
     [[nodiscard]] Window everything() const { return {0, width + 1, 0, height + 1}; }
     /// A channel's value at a texel, 0 … 1; those at the border repeated.
     [[nodiscard]] float value(std::int64_t i, std::int64_t j, std::uint32_t channel) const {
         const auto x = static_cast<std::uint64_t>(std::clamp<std::int64_t>(i, 0, std::int64_t{width} - 1)),
                    y = static_cast<std::uint64_t>(std::clamp<std::int64_t>(j, 0, std::int64_t{height} - 1));
-        return static_cast<float>(values[(y * width + x) * fetex::bilevel_channels(rule) + channel]) * (1.0F / 255);
+        return static_cast<float>(values[(y * width + x) * channels + channel]) * (1.0F / 255);
     }
 };
 

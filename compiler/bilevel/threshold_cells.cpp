@@ -159,7 +159,7 @@ double ThresholdCells::wrong_area_of(std::span<const std::uint8_t> values, const
         total += disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, crossings(line), c.low,
                               c.high);
     }
-    return static_cast<double>(total) * line_width();
+    return static_cast<double>(std::max(total, 0.0F)) * line_width(); // rounding may leave less than nothing
 }
 
 ThresholdCells::ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height,
