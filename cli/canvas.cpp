@@ -96,6 +96,13 @@ Result<fetex::Image> Canvas::draw(const fetex::BilevelTexture& texture, const fe
     return to_result(gl_->render_bilevel(view, size));
 }
 
+Result<fetex::Image> Canvas::draw(const fetex::SilmapTexture& texture, const fetex::View& view,
+                                  const fetex::RenderSize& size, fetex::SilmapFilter filter) {
+    if (!gl_) return to_result(fetex::render_cpu(texture, view, size, filter));
+    if (const auto error = gl_->upload_silmap(texture, filter)) return to_error(*error);
+    return to_result(gl_->render_silmap(view, size));
+}
+
 Result<fetex::Image> Canvas::draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size) {
     if (!gl_) return to_result(fetex::render_bitmap_cpu(bitmap.rgba, bitmap.width, bitmap.height, view, size));
     if (const auto error = gl_->upload_bitmap(bitmap.rgba, bitmap.width, bitmap.height)) return to_error(*error);
@@ -107,6 +114,10 @@ Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint
 }
 
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes) {
+    return equal_bitmap(texture, bytes);
+}
+
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::uint64_t bytes) {
     return equal_bitmap(texture, bytes);
 }
 

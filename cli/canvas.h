@@ -33,6 +33,9 @@ class Canvas {
     /// By the hardware's filter where a probe finds that good enough.
     Result<fetex::Image> draw(const fetex::BilevelTexture& texture, const fetex::View& view,
                               const fetex::RenderSize& size);
+    Result<fetex::Image> draw(const fetex::SilmapTexture& texture, const fetex::View& view,
+                              const fetex::RenderSize& size,
+                              fetex::SilmapFilter filter = fetex::SilmapFilter::Filtered);
     Result<fetex::Image> draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size);
 
   private:
@@ -43,5 +46,6 @@ class Canvas {
 /// Largest RGBA8 bitmap of the texture's aspect with at most `bytes` bytes, box-filtered from the texture itself.
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint64_t bytes);
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes);
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::uint64_t bytes);
 
 } // namespace fetexc::cli

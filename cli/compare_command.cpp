@@ -236,7 +236,7 @@ Command add_compare_command(CLI::App& parent) {
         ->required()
         ->type_name("OTHER");
     app->add_option("--repr", options->representation,
-                    "What of OTHER: fbt or bilevel; default: what it holds, fbt first")
+                    "What of OTHER: fbt, bilevel or silmap; default: the first of these that it holds")
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     app->add_option("--size", options->sizes, "Output sizes: pixels on the longer side (default 1024)")

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/compile_bilevel.h"
+#include "cli/compile_silmap.h"
 #include "cli/fetex_input.h"
 #include "cli/image_file.h"
 #include "cli/io.h"
@@ -29,23 +30,33 @@ FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes
     return path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
 }
 
+std::unique_ptr<const measure::Picture> picture_of(const fetex::FbtTexture& t) {
+    return std::make_unique<const measure::FbtPicture>(t);
+}
+std::unique_ptr<const measure::Picture> picture_of(const fetex::BilevelTexture& t) {
+    return std::make_unique<const measure::BilevelPicture>(t);
+}
+std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t) {
+    return std::make_unique<const measure::SilmapPicture>(t);
+}
+
+std::string name_of(const fetex::FbtTexture&) { return "FBT"; }
+std::string name_of(const fetex::BilevelTexture& t) { return fmt::format("bi-level texture ({})", rule_name(t.rule)); }
+std::string name_of(const fetex::SilmapTexture& t) {
+    return fmt::format("silhouette-map texture ({}-bit cells)", cell_bits(t));
+}
+
 Result<ComparedPicture> asset_picture(const ComparedFile& file, const std::string& representation) {
     auto input = fetex_of_bytes(file.bytes, file.path);
     if (!input) return input.error();
     if (const Status s = choose_representation(input.value().file, representation, file.path); !s) return s.error();
     ComparedPicture out;
     out.asset = std::make_unique<const fetex::FetexFile>(std::move(input.value().file));
-    std::string name = "FBT of";
-    if (out.asset->fbt) {
-        out.picture = std::make_unique<const measure::FbtPicture>(*out.asset->fbt);
-    } else {
-        const fetex::BilevelTexture& texture = *out.asset->bilevel;
-        out.picture = std::make_unique<const measure::BilevelPicture>(texture);
-        name = fmt::format("bi-level texture ({}) of", rule_name(texture.rule));
-    }
+    out.picture = with_texture(*out.asset, [](const auto& texture) { return picture_of(texture); });
     const GridSize size = out.picture->texels();
-    out.description =
-        fmt::format("{} {} x {} texels, {} bytes on the GPU", name, size.width, size.height, out.picture->gpu_bytes());
+    out.description = fmt::format("{} of {} x {} texels, {} bytes on the GPU",
+                                  with_texture(*out.asset, [](const auto& texture) { return name_of(texture); }),
+                                  size.width, size.height, out.picture->gpu_bytes());
     return out;
 }
 

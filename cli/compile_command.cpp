@@ -9,7 +9,9 @@
 
 #include "cli/compile_bilevel.h"
 #include "cli/compile_image.h"
+#include "cli/compile_silmap.h"
 #include "cli/depfile.h"
+#include "cli/fetex_input.h"
 #include "cli/io.h"
 #include "cli/load_scene.h"
 #include "cli/messages.h"
@@ -36,7 +38,13 @@ struct CompileCommandOptions {
     SceneOptions scene;
     ImageOptions image;
     BilevelCommandOptions bilevel;
-    std::vector<CLI::Option*> for_fbt, for_bilevel; ///< that mean nothing without it
+    SilmapCommandOptions silmap;
+    /// Options, and the representations of which one must be made for them to mean anything.
+    struct OptionsFor {
+        std::vector<CLI::Option*> options;
+        std::vector<std::string> representations;
+    };
+    std::vector<OptionsFor> only_for;
     std::uint64_t max_bytes = 0;
     unsigned threads = 0;
     std::vector<std::string> no_skip;
@@ -80,8 +88,19 @@ struct Compiled {
     std::string source_hash, features_hash; ///< empty: none
     std::optional<FbtBuild> fbt;
     std::optional<CompiledBilevel> bilevel;
+    std::optional<SilmapBuild> silmap;
     CompileReport report; ///< the FBT's if there is one
 };
+
+SilmapRequest silmap_request(const CompileCommandOptions& options, const Extent& extent) {
+    SilmapRequest request;
+    request.how = options.silmap;
+    request.size = grid_of(options.size, extent), request.automatic = options.size.automatic;
+    request.max_bytes = options.max_bytes, request.samples = options.samples;
+    request.mips = options.mips, request.threads = options.threads;
+    request.skip = skip_rules_without(options.no_skip);
+    return request;
+}
 
 /// What the file says about its own making. Nothing that differs between two runs or two folders.
 std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
@@ -94,10 +113,13 @@ std::string options_text(const Compiled& compiled, const CompileCommandOptions& 
         text += fmt::format(" trace-contrast={} trace-speck={}", options.image.tracing.contrast,
                             options.image.tracing.speck);
     if (options.scene.raster_size != 0) text += fmt::format(" raster-size={}", options.scene.raster_size);
-    if (!compiled.bilevel) return text;
-    const fetex::BilevelTexture& t = compiled.bilevel->build.texture;
-    const char* size = compiled.fbt ? "bilevel-size" : "size";
-    return text + fmt::format(" {}={}x{} {}", size, t.width, t.height, compiled.bilevel->options);
+    const auto add = [&](const char* name, const auto& texture, const std::string& how) {
+        const char* prefix = options.representations.size() > 1 ? name : "";
+        text += fmt::format(" {}size={}x{} {}", prefix, texture.width, texture.height, how);
+    };
+    if (compiled.bilevel) add("bilevel-", compiled.bilevel->build.texture, compiled.bilevel->options);
+    if (compiled.silmap) add("silmap-", compiled.silmap->texture, options_text(silmap_request(options, {})));
+    return text;
 }
 
 fetex::Metadata metadata_for(const Compiled& compiled, const CompileCommandOptions& options) {
@@ -126,6 +148,16 @@ Status add_bilevel(const Result<Silhouette>& silhouette, const CompileCommandOpt
     auto built = compile_silhouette(silhouette.value(), request, progress, diagnostics);
     if (!built) return built.error();
     compiled.bilevel = std::move(built).value();
+    return {};
+}
+
+Status add_silmap(const Scene& scene, const CompileCommandOptions& options, const ProgressSink& progress,
+                  std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
+    auto built = compile_silhouette_map(scene, silmap_request(options, scene.extent), progress);
+    if (!built) return built.error();
+    const std::vector<Diagnostic>& said = built.value().report.diagnostics;
+    diagnostics.insert(diagnostics.end(), said.begin(), said.end());
+    compiled.silmap = std::move(built).value();
     return {};
 }
 
@@ -187,6 +219,9 @@ Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOp
         if (const Status s = add_bilevel(silhouette, options, progress.sink(), diagnostics, compiled); !s)
             return s.error();
     }
+    if (makes(options, "silmap")) {
+        if (const Status s = add_silmap(scene, options, progress.sink(), diagnostics, compiled); !s) return s.error();
+    }
     return compiled;
 }
 
@@ -224,6 +259,7 @@ CompileOutcome outcome_of(const Job& job, const Compiled& compiled) {
         outcome.samples = fbt.sample_format, outcome.traits = fbt.traits;
     }
     if (compiled.bilevel) outcome.bilevel = outcome_of(compiled.bilevel->build);
+    if (compiled.silmap) outcome.silmap = silmap_outcome(*compiled.silmap);
     outcome.report = compiled.report;
     return outcome;
 }
@@ -240,6 +276,7 @@ Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& 
     file.metadata = metadata_for(compiled.value(), options);
     if (compiled.value().fbt) file.fbt = std::move(compiled.value().fbt->texture);
     if (compiled.value().bilevel) file.bilevel = std::move(compiled.value().bilevel->build.texture);
+    if (compiled.value().silmap) file.silmap = std::move(compiled.value().silmap->texture);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
@@ -281,18 +318,18 @@ Error usage(std::string message) { return {ErrorClass::Usage, diag::kBadUsage, s
 
 /// Options of a representation that isn't made.
 Status check_representations(const CompileCommandOptions& options) {
-    const auto unused = [](const std::vector<CLI::Option*>& of_one, const char* name) -> Status {
-        for (const CLI::Option* o : of_one) {
-            if (o->count() > 0) return usage(fmt::format("{} is for --repr {}", o->get_name(), name));
-        }
-        return {};
-    };
     for (const std::string& name : options.representations) {
         if (std::ranges::count(options.representations, name) > 1)
             return usage(fmt::format("--repr names {} twice", name));
     }
-    if (!makes(options, "fbt")) return unused(options.for_fbt, "fbt");
-    return makes(options, "bilevel") ? Status() : unused(options.for_bilevel, "bilevel");
+    for (const auto& [of_some, names] : options.only_for) {
+        if (std::ranges::any_of(names, [&](const std::string& name) { return makes(options, name.c_str()); })) continue;
+        for (const CLI::Option* o : of_some) {
+            if (o->count() > 0)
+                return usage(fmt::format("{} is for --repr {}", o->get_name(), fmt::join(names, " or ")));
+        }
+    }
+    return {};
 }
 
 /// What the options' own conditions don't say.
@@ -301,13 +338,17 @@ Status check_inputs(const CompileCommandOptions& options) {
     const ImageOptions& image = options.image;
     const bool fbt = makes(options, "fbt");
     if (makes(options, "bilevel") && options.size.automatic)
-        return usage("--size auto chooses sizes for --repr fbt alone");
+        return usage("--size auto chooses sizes for --repr fbt and silmap");
+    if (options.samples == "rgb8" && makes(options, "fbt")) return usage("--samples rgb8 is for --repr silmap alone");
+    if (options.silmap.max_wrong_ppm > 0 && !size_chosen(options))
+        return usage("--max-wrong goes with --size auto or --max-bytes");
     if (options.bilevel.above_image == "-") return usage("--above-image takes a file, not stdin");
     if (image.image.empty())
         return options.inputs.empty() ? usage("inputs is required: SVG files, or --image") : Status();
     if (!options.inputs.empty()) return usage("--image goes alone: no other inputs");
     if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
     if (options.bilevel.silhouette.starts_with("id:")) return usage("--silhouette id:NAME is for drawings");
+    if (makes(options, "silmap")) return usage("--repr silmap takes drawings, not --image");
     if (fbt && image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
     return {};
 }
@@ -366,12 +407,15 @@ Command add_compile_command(CLI::App& parent) {
                     "File for one input, folder for several, - for stdout; default: beside each input")
         ->type_name("PATH");
     app->add_option("--repr", options->representations,
-                    "Representations: fbt (feature-based texture, default), bilevel (bi-level texture), or both")
+                    "Representations: fbt (feature-based texture, default), bilevel (bi-level texture), silmap "
+                    "(silhouette-map texture), or several of them")
         ->delimiter(',')
-        ->check(CLI::IsMember({"fbt", "bilevel"}))
+        ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");
     CLI::Option* size = add_size_or_auto_option(
-        *app, options->size, "Texels: both sides, or the longer one (default 128); auto: as few as cheap lookups need");
+        *app, options->size,
+        "Texels: both sides, or the longer one (default 128); auto: of an FBT as few as cheap lookups need, of a "
+        "silhouette-map texture as few as --max-wrong lets");
     app->add_option("--max-bytes", options->max_bytes,
                     "The largest size, to 1/64, with at most so many bytes on the GPU; of each representation")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
@@ -382,9 +426,10 @@ Command add_compile_command(CLI::App& parent) {
     CLI::Option* samples =
         app->add_option(
                "--samples", options->samples,
-               "Gradients' colours in 8 (default) or 16 bits a channel, or as 16-bit floats, which of an --image "
-               "keep what is brighter than white")
-            ->check(CLI::IsMember({"8", "16", "float"}))
+               "Colours (of an FBT those of gradients) in 8 (default) or 16 bits a channel, or as 16-bit floats, which "
+               "of an --image keep what is brighter than white; rgb8: 8 bits without alpha, of a silhouette-map "
+               "texture")
+            ->check(CLI::IsMember({"8", "16", "float", "rgb8"}))
             ->type_name("FORMAT");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
         ->check(CLI::Range(0, 1024))
@@ -395,9 +440,11 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
     add_image_options(*app, options->image);
-    options->for_bilevel = add_bilevel_options(*app, options->bilevel);
-    options->for_fbt = {samples, app->get_option("--features"), app->get_option("--trace"),
-                        app->get_option("--invalidate")};
+    options->only_for = {
+        {add_bilevel_options(*app, options->bilevel), {"bilevel"}},
+        {add_silmap_options(*app, options->silmap), {"silmap"}},
+        {{samples}, {"fbt", "silmap"}},
+        {{app->get_option("--features"), app->get_option("--trace"), app->get_option("--invalidate")}, {"fbt"}}};
     add_scene_options(*app, options->scene);
     app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
         ->take_all()

@@ -29,18 +29,31 @@ Result<FetexInput> load_fetex(const std::string& path) {
 }
 
 const std::vector<std::string>& representation_names() {
-    static const std::vector<std::string> names = {"fbt", "bilevel"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const Representation& r : kRepresentations)
+            all.emplace_back(r.name);
+        return all;
+    }();
     return names;
 }
 
 Status choose_representation(fetex::FetexFile& file, const std::string& name, const std::string& path) {
-    const bool fbt = name == "fbt" || (name.empty() && file.fbt);
-    if (fbt ? !file.fbt : !file.bilevel) {
-        const char* what = name.empty() ? "holds no texture" : fbt ? "holds no FBT" : "holds no bi-level texture";
-        return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, what, path};
-    }
-    fbt ? file.bilevel.reset() : file.fbt.reset();
-    return {};
+    bool found = false;
+    std::string what = "texture";
+    const auto look_at = [&](const Representation& r, auto& texture) {
+        if (name == r.name) what = r.words;
+        const bool wanted = name.empty() ? !found : name == r.name;
+        if (wanted && texture)
+            found = true;
+        else
+            texture.reset();
+    };
+    look_at(kRepresentations[0], file.fbt);
+    look_at(kRepresentations[1], file.bilevel);
+    look_at(kRepresentations[2], file.silmap);
+    if (found) return {};
+    return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no " + what, path};
 }
 
 } // namespace fetexc::cli

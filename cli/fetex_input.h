@@ -2,6 +2,7 @@
 /// Reading .fetex files for the subcommands.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,12 +26,27 @@ Result<FetexInput> load_fetex(const std::string& path);
 /// The same for bytes already read; path: for messages.
 Result<FetexInput> fetex_of_bytes(std::span<const std::uint8_t> bytes, const std::string& path);
 
-/// Names that --repr takes where one is chosen: "fbt", "bilevel".
+/// What a file may hold, in the order in which it is looked for.
+struct Representation {
+    const char* name;  ///< as --repr takes it
+    const char* words; ///< for messages
+};
+inline constexpr std::array<Representation, 3> kRepresentations{
+    {{"fbt", "FBT"}, {"bilevel", "bi-level texture"}, {"silmap", "silhouette-map texture"}}};
+
+/// Their names.
 const std::vector<std::string>& representation_names();
 
-/// What the file holds of that name; of the empty name whatever it holds, the FBT first. The other is dropped. Error
-/// E6002 where it isn't there. path: for messages.
+/// What the file holds of that name; of the empty name the first that it holds. The others are dropped. Error E6002
+/// where it isn't there. path: for messages.
 Status choose_representation(fetex::FetexFile& file, const std::string& name, const std::string& path);
+
+/// Calls visit with the texture that choose_representation left.
+template <class Visit> auto with_texture(const fetex::FetexFile& file, const Visit& visit) {
+    if (file.fbt) return visit(*file.fbt);
+    if (file.bilevel) return visit(*file.bilevel);
+    return visit(*file.silmap);
+}
 
 /// "F0101 at byte 12: reason"
 std::string describe(const fetex::Finding& finding);

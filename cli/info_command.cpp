@@ -1,214 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// `fetexc info`: what a .fetex file holds.
-#include <algorithm>
-#include <array>
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "cli/compile_bilevel.h"
 #include "cli/fetex_input.h"
 #include "cli/messages.h"
 #include "cli/options.h"
-#include "cli/report.h"
-#include "formats/fbt_mip.h"
+#include "cli/texture_info.h"
 
 namespace fetexc::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr std::uint32_t kStatsPixels = 500; ///< a side, as FBT Table 3
 
 struct InfoOptions {
     std::string input;
     bool json = false, stats = false;
 };
 
-/// Texels by kind: of one region, with one band, with several.
-std::array<std::uint64_t, 3> count_kinds(const fetex::FbtTexture& fbt) {
-    std::array<std::uint64_t, 3> counts{};
-    for (const std::uint32_t texel : fbt.texels)
-        ++counts[texel >> 30 == fetex::kFbtKindShaded ? fetex::kFbtKindSolid : texel >> 30];
-    return counts;
-}
-
-/// Texels with one region, two, more (FBT Table 2). Bands come from junctions, of three regions at least.
-std::array<std::uint64_t, 3> count_regions(const fetex::FbtTexture& fbt) {
-    std::array<std::uint64_t, 3> counts{};
-    for (const std::uint32_t texel : fbt.texels) {
-        const std::uint32_t kind = texel >> 30;
-        std::size_t more = kind == fetex::kFbtKindBanded ? 2 : 0;
-        if (kind == fetex::kFbtKindSingle) {
-            for (std::uint32_t at = texel & fetex::kFbtAddressMask;;) {
-                const fetex::FbtEntry entry(fbt.records[std::size_t{4} * at]);
-                more += entry.last_run() && entry.pieces() > 0 ? 1 : 0;
-                if (entry.last()) break;
-                at += entry.records();
-            }
-        }
-        ++counts[std::min<std::size_t>(more, 2)];
-    }
-    return counts;
-}
-
-/// What lookups at the pixel centres of a picture do (FBT Table 3).
-fetex::FbtQueryStats count_queries(const fetex::FbtTexture& fbt) {
-    fetex::FbtQueryStats stats;
-    for (std::uint32_t py = 0; py < kStatsPixels; ++py) {
-        for (std::uint32_t px = 0; px < kStatsPixels; ++px) {
-            const double x = (px + 0.5) / kStatsPixels * fbt.width, y = (py + 0.5) / kStatsPixels * fbt.height;
-            const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
-            fetex::fbt_locate_local(fbt, i, j, x - i, y - j, &stats);
-        }
-    }
-    return stats;
-}
-
-/// Table 1 to 3 of the paper. Its figures count the pixels of a picture; s_avg and f_test are the paper's names.
-Json stats_json(const fetex::FbtTexture& fbt) {
-    const auto regions = count_regions(fbt);
-    const fetex::FbtQueryStats q = count_queries(fbt);
-    const auto texels = static_cast<double>(fbt.texels.size()), queries = static_cast<double>(q.queries);
-    const auto pieces = static_cast<double>(q.pieces), cubics = static_cast<double>(q.solved[3]);
-    return {{"empty", static_cast<double>(regions[0]) / texels},
-            {"twoRegions", static_cast<double>(regions[1]) / texels},
-            {"moreRegions", static_cast<double>(regions[2]) / texels},
-            {"pixels", kStatsPixels},
-            {"bandSteps", static_cast<double>(q.bands) / queries},
-            {"curvesConsidered", pieces / queries},
-            {"hullTests", static_cast<double>(q.pieces - q.outside) / queries},
-            {"linesSolved", static_cast<double>(q.solved[1]) / queries},
-            {"quadraticsSolved", static_cast<double>(q.solved[2]) / queries},
-            {"cubicsSolved", cubics / queries},
-            {"cubicShare", pieces > 0 ? cubics / pieces : 0.0}};
-}
-
-void print_stats(const fetex::FbtTexture& fbt) {
-    const Json s = stats_json(fbt);
-    const auto at = [&](const char* key) { return s[key].get<double>(); };
-    fmt::print("  regions     {:.1f}% of texels with one, {:.1f}% with two, {:.1f}% with more\n", 100 * at("empty"),
-               100 * at("twoRegions"), 100 * at("moreRegions"));
-    fmt::print("  a lookup    {:.4f} curves considered, {:.4f} hull tests, {:.4f} steps over bands\n",
-               at("curvesConsidered"), at("hullTests"), at("bandSteps"));
-    fmt::print("              solved: {:.4f} lines, {:.4f} quadratics, {:.4f} cubics ({:.4f} of the curves)\n",
-               at("linesSolved"), at("quadraticsSolved"), at("cubicsSolved"), at("cubicShare"));
-    fmt::print("              (means over the {0} x {0} pixels of the whole picture)\n", kStatsPixels);
-}
-
-Json traits_json(const fetex::FbtTraits& traits) {
-    return {{"maxDegree", traits.max_degree},
-            {"lines", (traits.degrees & 2) != 0},
-            {"quadratics", (traits.degrees & 4) != 0},
-            {"cubics", (traits.degrees & 8) != 0},
-            {"bands", traits.bands},
-            {"corners", traits.corners},
-            {"patches", traits.patches},
-            {"sharedPoints", traits.shared},
-            {"translucent", traits.translucent},
-            {"directions", traits.directions},
-            {"maxEntries", traits.max_entries},
-            {"maxBands", traits.max_bands},
-            {"maxDepth", traits.max_depth}};
-}
-
-/// Of what has samples in a format at all.
-std::string gradients_text(const fetex::FbtTexture& fbt) {
-    if (!fbt.traits.corners && !fbt.traits.patches) return "constant colours";
-    switch (fbt.sample_format) {
-    case fetex::FbtSampleFormat::Rgba8:
-        return "gradients";
-    case fetex::FbtSampleFormat::Rgba16:
-        return "gradients in 16 bits";
-    case fetex::FbtSampleFormat::Rgba16F:
-        return "gradients in 16-bit floats";
-    }
-    return "";
-}
-
-std::uint32_t mip_levels(const fetex::FbtTexture& fbt) {
-    return fbt.mips.empty() ? 0 : fetex::fbt_mip_levels(fbt.width, fbt.height);
-}
-
-Json fbt_json(const fetex::FbtTexture& fbt) {
-    const auto kinds = count_kinds(fbt);
-    return {{"width", fbt.width},
-            {"height", fbt.height},
-            {"gpuBytes", fetex::fbt_gpu_bytes(fbt)},
-            {"texelBytes", 4 * fbt.texels.size()},
-            {"cornerBytes", 4 * fbt.corners.size()},
-            {"recordBytes", 4 * fbt.records.size()},
-            {"mipBytes", 4 * fbt.mips.size()},
-            {"mipLevels", mip_levels(fbt)},
-            {"samples", sample_format_name(fbt.sample_format)},
-            {"texels", {{"empty", kinds[0]}, {"single", kinds[1]}, {"banded", kinds[2]}}},
-            {"traits", traits_json(fbt.traits)}};
-}
-
-void print_fbt(const fetex::FbtTexture& fbt) {
-    const auto kinds = count_kinds(fbt);
-    const double total = static_cast<double>(fbt.width) * fbt.height;
-    const auto share = [&](std::uint64_t n) { return 100 * static_cast<double>(n) / total; };
-    const std::size_t texel_bytes = 4 * (fbt.texels.size() + fbt.corners.size()), record_bytes = 4 * fbt.records.size(),
-                      mip_bytes = 4 * fbt.mips.size(), bytes = texel_bytes + record_bytes + mip_bytes;
-    const fetex::FbtTraits& t = fbt.traits;
-    fmt::print("fbt           {} x {} texels\n", fbt.width, fbt.height);
-    fmt::print("  on the GPU  {} bytes: {} in texels, {} in curves{} ({:.1f} bytes a texel)\n", bytes, texel_bytes,
-               record_bytes, mip_bytes == 0 ? "" : fmt::format(", {} in {} mip levels", mip_bytes, mip_levels(fbt)),
-               static_cast<double>(bytes) / total);
-    fmt::print("  texels      {:.1f}% empty, {:.1f}% with one band, {:.1f}% with more\n", share(kinds[0]),
-               share(kinds[1]), share(kinds[2]));
-    fmt::print("  curves      {}{}{}{}\n", t.degrees == 0 ? "none" : "", t.degrees & 2 ? "lines " : "",
-               t.degrees & 4 ? "quadratics " : "", t.degrees & 8 ? "cubics" : "");
-    fmt::print("  sampler     {}, {}, {}; longest list {} entries, most bands {}\n", t.bands ? "bands" : "no bands",
-               gradients_text(fbt), t.translucent ? "translucent" : "opaque", t.max_entries, t.max_bands);
-}
-
-std::uint32_t mip_levels(const fetex::BilevelTexture& t) {
-    return t.mips.empty() ? 0 : fetex::fbt_mip_levels(t.width, t.height);
-}
-
-/// "#rrggbbaa", premultiplied.
-std::string color_text(std::uint32_t rgba) {
-    return fmt::format("#{:02x}{:02x}{:02x}{:02x}", rgba & 0xff, rgba >> 8 & 0xff, rgba >> 16 & 0xff, rgba >> 24);
-}
-
-Json bilevel_json(const fetex::BilevelTexture& t) {
-    Json json = {{"width", t.width},
-                 {"height", t.height},
-                 {"channels", t.channels},
-                 {"rule", rule_name(t.rule)},
-                 {"gpuBytes", fetex::bilevel_gpu_bytes(t)},
-                 {"texelBytes", t.texels.size()},
-                 {"mipBytes", t.mips.size()},
-                 {"mipLevels", mip_levels(t)},
-                 {"imageBytes", 4 * t.image.size()},
-                 {"below", color_text(t.below)}};
-    if (t.image.empty())
-        json["above"] = color_text(t.above);
-    else
-        json["image"] = {{"width", t.image_width}, {"height", t.image_height}};
-    return json;
-}
-
-void print_bilevel(const fetex::BilevelTexture& t) {
-    fmt::print("bi-level      {} x {} texels, {} channel{} ({})\n", t.width, t.height, t.channels,
-               t.channels == 1 ? "" : "s", rule_name(t.rule));
-    fmt::print("  on the GPU  {} bytes: {} in texels{}{}\n", fetex::bilevel_gpu_bytes(t), t.texels.size(),
-               t.mips.empty() ? "" : fmt::format(", {} in {} mip levels", t.mips.size(), mip_levels(t)),
-               t.image.empty()
-                   ? ""
-                   : fmt::format(", {} in an image of {} x {}", 4 * t.image.size(), t.image_width, t.image_height));
-    fmt::print("  colours     {} below, {} above\n", color_text(t.below),
-               t.image.empty() ? color_text(t.above) : "the image");
-}
-
 void print_text(const std::string& path, const FetexInput& input, bool stats) {
     fmt::print("file          {} ({} bytes)\n", printable(path), input.bytes);
-    if (input.file.fbt) print_fbt(*input.file.fbt);
-    if (input.file.fbt && stats) print_stats(*input.file.fbt);
-    if (input.file.bilevel) print_bilevel(*input.file.bilevel);
+    if (input.file.fbt) print_info(*input.file.fbt, stats);
+    if (input.file.bilevel) print_info(*input.file.bilevel);
+    if (input.file.silmap) print_info(*input.file.silmap);
     for (const auto& [key, value] : input.file.metadata)
         fmt::print("{:<13} {}\n", printable(key), printable(value));
 }
@@ -218,9 +31,9 @@ void print_json(const std::string& path, const FetexInput& input, bool stats) {
     json["metadata"] = Json::object();
     for (const auto& [key, value] : input.file.metadata)
         json["metadata"][key] = value;
-    if (input.file.fbt) json["fbt"] = fbt_json(*input.file.fbt);
-    if (input.file.fbt && stats) json["fbt"]["stats"] = stats_json(*input.file.fbt);
-    if (input.file.bilevel) json["bilevel"] = bilevel_json(*input.file.bilevel);
+    if (input.file.fbt) json["fbt"] = info_json(*input.file.fbt, stats);
+    if (input.file.bilevel) json["bilevel"] = info_json(*input.file.bilevel);
+    if (input.file.silmap) json["silmap"] = info_json(*input.file.silmap);
     fmt::print("{}\n", json.dump(2));
 }
 

@@ -10,6 +10,7 @@
 #include "cli/io.h"
 #include "cli/messages.h"
 #include "cli/options.h"
+#include "cli/overlay.h"
 #include "compiler/diagnostics.h"
 
 namespace fetexc::cli {
@@ -25,17 +26,20 @@ struct RenderOptions {
     SizeValue size{0, 0, kDefaultPixels};
     std::uint32_t supersample = 0; ///< 0: by filter
     std::string filter = "auto";
+    bool nearest = false, overlay = false;
     bool quiet = false;
 };
 
 std::uint64_t gpu_bytes(const fetex::FbtTexture& texture) { return fetex::fbt_gpu_bytes(texture); }
 std::uint64_t gpu_bytes(const fetex::BilevelTexture& texture) { return fetex::bilevel_gpu_bytes(texture); }
+std::uint64_t gpu_bytes(const fetex::SilmapTexture& texture) { return fetex::silmap_gpu_bytes(texture); }
 
 const char* texels_name(const fetex::FbtTexture&) { return "of features"; }
 const char* texels_name(const fetex::BilevelTexture&) { return "cut at one half"; }
+const char* texels_name(const fetex::SilmapTexture&) { return "and a silhouette map"; }
 
 /// A bi-level texture is cut softly unless told otherwise.
-fetex::Filter filter_of(const std::string& name, const fetex::FbtTexture&) {
+template <class Texture> fetex::Filter filter_of(const std::string& name, const Texture&) {
     return name == "area" ? fetex::Filter::Area : name == "exact" ? fetex::Filter::ExactArea : fetex::Filter::Point;
 }
 fetex::Filter filter_of(const std::string& name, const fetex::BilevelTexture&) {
@@ -69,12 +73,25 @@ Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, 
     return side_by_side(left, right.value(), std::max(2u, size.width / 128));
 }
 
+template <class Texture>
+Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions&, const Texture& texture, const fetex::View& view,
+                             const fetex::RenderSize& size) {
+    return canvas.draw(texture, view, size);
+}
+Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions& options, const fetex::SilmapTexture& texture,
+                             const fetex::View& view, const fetex::RenderSize& size) {
+    auto image = canvas.draw(texture, view, size,
+                             options.nearest ? fetex::SilmapFilter::Nearest : fetex::SilmapFilter::Filtered);
+    if (image && options.overlay) draw_overlay(texture, view, image.value());
+    return image;
+}
+
 template <class Texture> Result<fetex::Image> draw(const RenderOptions& options, const Texture& texture) {
     auto canvas = Canvas::open(options.backend);
     if (!canvas) return canvas.error();
     const fetex::View view{options.view.x, options.view.y, options.view.w, options.view.h};
     const fetex::RenderSize size = pixels_for(options, texture);
-    auto image = canvas.value().draw(texture, view, size);
+    auto image = draw_on(canvas.value(), options, texture, view, size);
     if (!image || options.beside.empty()) return image;
     return add_bilinear(options, canvas.value(), texture, view, size, image.value());
 }
@@ -88,7 +105,10 @@ int run_render(const RenderOptions& options) {
     fetex::FetexFile& file = input.value().file;
     if (const Status s = choose_representation(file, options.representation, options.input); !s)
         return report_error(s.error());
-    const auto image = file.fbt ? draw(options, *file.fbt) : draw(options, *file.bilevel);
+    if ((options.nearest || options.overlay) && !file.silmap)
+        return report_error({ErrorClass::Usage, diag::kBadUsage,
+                             "--nearest and --overlay are for silhouette-map textures", options.input});
+    const auto image = with_texture(file, [&](const auto& texture) { return draw(options, texture); });
     if (!image) return report_error(image.error(), options.input);
     const auto png = encode_png(image.value());
     if (!png) return report_error(png.error(), options.output);
@@ -104,7 +124,7 @@ Command add_render_command(CLI::App& parent) {
     app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
     app->add_option("-o,--output", options->output, "The PNG to write, or - for stdout")->required()->type_name("FILE");
     app->add_option("--repr", options->representation,
-                    "Representation to draw: fbt or bilevel; default: what the file holds, fbt first")
+                    "Representation to draw: fbt, bilevel or silmap; default: the first of these that the file holds")
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     add_view_option(*app, options->view);
@@ -123,6 +143,11 @@ Command add_render_command(CLI::App& parent) {
                     "from one texel or from all (bilevel: soft edges, both), and the chain")
         ->check(CLI::IsMember({"auto", "point", "area", "exact"}))
         ->type_name("NAME");
+    app->add_flag("--nearest", options->nearest,
+                  "A silhouette-map texture without interpolation between its colours: each quadrant has one");
+    app->add_flag("--overlay", options->overlay,
+                  "Draw what a silhouette-map texture is made of over it: boundaries and points, and magnified enough "
+                  "the cells and the texels' colours");
     app->add_option("--beside", options->beside,
                     "bilinear: draw to the right what an ordinary texture of the same bytes shows")
         ->check(CLI::IsMember({"bilinear"}))

@@ -7,6 +7,7 @@
 
 #include "cli/compile_bilevel.h"
 #include "cli/messages.h"
+#include "cli/report_planar.h"
 #include "cli/version.h"
 #include "formats/fetex_file.h"
 
@@ -14,10 +15,6 @@ namespace fetexc::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double share(std::uint64_t part, std::uint64_t whole) {
-    return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
 
 std::string scene_text(const SceneStats& s) {
     const std::uint64_t culled = s.layers_empty + s.layers_outside + s.layers_hidden + s.layers_transparent;
@@ -28,24 +25,6 @@ std::string scene_text(const SceneStats& s) {
     text += fmt::format("  geometry   {} segments, {} null ones dropped; {} of {} vertices merged; moved at most "
                         "{:.2f} steps of 2^-26\n",
                         s.segments_in, s.segments_zero, s.vertices_merged, s.vertices_in, s.max_displacement);
-    return text;
-}
-
-std::string planar_text(const PlanarStats& p) {
-    std::string text = fmt::format("  texels     {:.1f}% empty, {:.1f}% simple, {:.1f}% arranged (of {})\n",
-                                   share(p.texels_empty, p.texels), share(p.texels_simple, p.texels),
-                                   share(p.texels_arranged, p.texels), p.texels);
-    text += fmt::format("  pieces     {} of {} segments; {} null, {} reduced in degree, {} on a shared support\n",
-                        p.pieces, p.segments, p.segments_null, p.degree_reduced, p.pieces_shared);
-    text += fmt::format("  pairs      {} near each other: {} settled by the filter, {} by exact arithmetic; {} "
-                        "overlaps; {} exact comparisons\n",
-                        p.box_pairs, p.pairs_certified, p.pairs_exact, p.overlaps, p.exact_comparisons);
-    text +=
-        fmt::format("  planar map {} crossings, {} grid crossings, {} vertices, {} edges, {} trapezoids, {} regions\n",
-                    p.crossings, p.grid_crossings, p.vertices, p.edges, p.trapezoids, p.regions);
-    text += fmt::format("  reachable  {} parts of the picture separated by visible edges ({} vertices, {} links)\n",
-                        p.regions_connected, p.reach_vertices, p.reach_links);
-    text += fmt::format("  edges      {} visible, {} invisible ones dropped\n", p.edges_visible, p.edges_invisible);
     return text;
 }
 
@@ -141,34 +120,6 @@ Json scene_json(const SceneStats& s) {
             {"maxDisplacementSteps", s.max_displacement}};
 }
 
-Json planar_json(const PlanarStats& p) {
-    return {
-        {"segments", p.segments},
-        {"segmentsNull", p.segments_null},
-        {"degreeReduced", p.degree_reduced},
-        {"pieces", p.pieces},
-        {"piecesShared", p.pieces_shared},
-        {"nearCusps", p.near_cusps},
-        {"pairs",
-         {{"near", p.box_pairs}, {"certified", p.pairs_certified}, {"exact", p.pairs_exact}, {"overlaps", p.overlaps}}},
-        {"exactComparisons", p.exact_comparisons},
-        {"vertices", p.vertices},
-        {"edges", p.edges},
-        {"crossings", p.crossings},
-        {"gridCrossings", p.grid_crossings},
-        {"texels",
-         {{"total", p.texels},
-          {"empty", p.texels_empty},
-          {"simple", p.texels_simple},
-          {"arranged", p.texels_arranged}}},
-        {"trapezoids", p.trapezoids},
-        {"regions", p.regions},
-        {"edgesVisible", p.edges_visible},
-        {"edgesInvisible", p.edges_invisible},
-        {"reachability",
-         {{"vertices", p.reach_vertices}, {"links", p.reach_links}, {"components", p.regions_connected}}}};
-}
-
 Json fbt_json(const FbtStats& f) {
     return {{"texelsOneRegion", f.texels_empty},
             {"texelsTwoRegions", f.texels_two_regions},
@@ -251,23 +202,37 @@ Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     return list;
 }
 
+/// Of the first that was made.
+struct FirstTexture {
+    std::uint32_t width = 0, height = 0;
+    std::uint64_t gpu_bytes = 0;
+};
+FirstTexture first_texture(const CompileOutcome& o) {
+    if (o.has_fbt) return {o.width, o.height, o.gpu_bytes};
+    if (o.bilevel) return {o.bilevel->width, o.bilevel->height, o.bilevel->gpu_bytes};
+    return {o.silmap->width, o.silmap->height, o.silmap->stats.gpu_bytes};
+}
+
 std::string representations(const CompileOutcome& o) {
-    if (!o.bilevel) return "fbt";
-    return o.has_fbt ? "fbt,bilevel" : "bilevel";
+    std::vector<std::string> names;
+    if (o.has_fbt) names.emplace_back("fbt");
+    if (o.bilevel) names.emplace_back("bilevel");
+    if (o.silmap) names.emplace_back("silmap");
+    return fmt::format("{}", fmt::join(names, ","));
 }
 
 Json outcome_json(const CompileOutcome& o) {
-    const bool fbt = o.has_fbt;
+    const FirstTexture first = first_texture(o);
     Json json = {{"input", fetex::to_valid_utf8(o.input)},
                  {"output", fetex::to_valid_utf8(o.output)},
                  {"representation", representations(o)},
-                 {"width", fbt ? o.width : o.bilevel->width},
-                 {"height", fbt ? o.height : o.bilevel->height},
+                 {"width", first.width},
+                 {"height", first.height},
                  {"fileBytes", o.file_bytes},
-                 {"gpuBytes", fbt ? o.gpu_bytes : o.bilevel->gpu_bytes},
+                 {"gpuBytes", first.gpu_bytes},
                  {"milliseconds", o.milliseconds},
                  {"scene", scene_json(o.report.scene)}};
-    if (fbt) {
+    if (o.has_fbt) {
         json["samples"] = sample_format_name(o.samples);
         json["planar"] = planar_json(o.report.planar);
         json["fbt"] = fbt_json(o.report.fbt);
@@ -275,6 +240,7 @@ Json outcome_json(const CompileOutcome& o) {
         json["shaderPartsLeftOut"] = shader_parts_left_out(o.traits);
     }
     if (o.bilevel) json["bilevel"] = bilevel_json(*o.bilevel);
+    if (o.silmap) json["silmap"] = silmap_json(*o.silmap);
     json["diagnostics"] = diagnostics_json(o.report.diagnostics);
     if (o.report.image.width != 0) json["image"] = image_json(o.report.image);
     return json;
@@ -333,6 +299,7 @@ std::string report_text(const CompileOutcome& o) {
     if (o.report.scene.layers_in > 0) text += scene_text(o.report.scene);
     if (o.has_fbt) text += fbt_report_text(o);
     if (o.bilevel) text += bilevel_text(*o.bilevel);
+    if (o.silmap) text += silmap_text(*o.silmap);
     return text;
 }
 

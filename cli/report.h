@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report_silmap.h"
 #include "compiler/bilevel/bilevel_builder.h"
 #include "compiler/compile.h"
 
@@ -32,6 +33,7 @@ struct CompileOutcome {
     fetex::FbtSampleFormat samples = fetex::FbtSampleFormat::Rgba8;
     fetex::FbtTraits traits;
     std::optional<BilevelOutcome> bilevel = {};
+    std::optional<SilmapOutcome> silmap = {};
     CompileReport report;    ///< without an FBT: what the front end did, the image's size, the diagnostics
     double milliseconds = 0; ///< wall clock, front end and compiler; the only figure here that differs between runs
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Pictures to judge: an FBT and a bi-level texture through the reference samplers, and a bitmap.
+/// Pictures to judge: vector textures through the reference samplers, and a bitmap.
 #pragma once
 
 #include <span>
@@ -8,6 +8,7 @@
 #include "compiler/measure/picture.h"
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/silmap.h"
 
 namespace fetexc::measure {
 
@@ -34,6 +35,21 @@ class BilevelPicture final : public Picture {
 
   private:
     const fetex::BilevelTexture& texture_;
+};
+
+class SilmapPicture final : public Picture {
+  public:
+    /// A validated texture that outlives the picture.
+    explicit SilmapPicture(const fetex::SilmapTexture& texture,
+                           fetex::SilmapFilter filter = fetex::SilmapFilter::Filtered)
+        : texture_(texture), filter_(filter) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return {texture_.width, texture_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override;
+
+  private:
+    const fetex::SilmapTexture& texture_;
+    fetex::SilmapFilter filter_;
 };
 
 /// Stretched over the canvas, without mip levels; borders are clamped.

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a texture is made of, drawn over its picture.
+#pragma once
+
+#include "formats/silmap.h"
+#include "runtime_glsl/host/image.h"
+
+namespace fetexc::cli {
+
+/// Boundaries, the points they join, and where there is room the other links of the cells with boundaries, the cells'
+/// sides and the texels' colours, as in the paper's Fig. 1 (E). The image shows the view.
+void draw_overlay(const fetex::SilmapTexture& texture, const fetex::View& view, fetex::Image& image);
+
+} // namespace fetexc::cli
