@@ -336,4 +336,19 @@ inline constexpr double kEdgeLineMisfit = 0.04;
 /// a normal matrix says nothing. Decides nothing else: a step that doesn't fit better isn't taken.
 inline constexpr double kEdgeLineDifference = 0x1p-20;
 
+/// Steps of a silhouette map's points: edges are cut into chords that miss them by at most this. Rounding a point leaves
+/// a quarter of a step on average, eight times as much.
+inline constexpr double kSilmapChord = 1.0 / 32;
+
+/// Square texels: what a move of a silhouette map's point must win. Far above roundings (2^-45 of a cell), and 2^-16 of
+/// what a step of the finest points, 2^-7, sweeps along an edge across the cell.
+inline constexpr double kSilmapWorthAMove = 0x1p-23;
+
+/// Square texels: less wrong area in a cell that holds too much isn't reported: what a point of 8 bits that is half a
+/// step off leaves beside an edge across the cell.
+inline constexpr double kSilmapCrowded = 1.0 / 16;
+
+/// Square texels: smaller parts of the picture may get lost without a word.
+inline constexpr double kSilmapLostPart = 1.0 / 16;
+
 } // namespace fetexc::budget

@@ -47,7 +47,7 @@ struct Collected {
     void add(const Segment& segment, std::uint32_t shape, const Grid& grid, const SkipRules& skip) {
         std::array<IntPoint, 4> p{};
         for (int i = 0; i <= segment.degree; ++i)
-            p[i] = {segment.p[i].x * grid.kx, segment.p[i].y * grid.ky};
+            p[i] = {segment.p[i].x * grid.kx + grid.ox, segment.p[i].y * grid.ky + grid.oy};
         const Curve curve = make_curve(segment.degree, p);
         if (curve.degree < segment.degree) ++degree_reduced;
         if (curve.degree == 1 && curve.first() == curve.last()) {

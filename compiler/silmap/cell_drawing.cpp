@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/silmap/cell_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compiler/error_budget.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::SilmapPoint;
+
+struct Polygon {
+    int degree = 1;
+    std::array<SilmapPoint, 4> p{};
+
+    [[nodiscard]] SilmapPoint at(double t) const {
+        std::array<SilmapPoint, 4> q = p;
+        for (int n = degree; n > 0; --n) {
+            for (int k = 0; k < n; ++k)
+                q[k] = {q[k].x + t * (q[k + 1].x - q[k].x), q[k].y + t * (q[k + 1].y - q[k].y)};
+        }
+        return q[0];
+    }
+
+    /// A chord of a curve with second derivative d misses it by at most d/8 of the square of its part.
+    [[nodiscard]] int chords(double tolerance) const {
+        double bend = 0;
+        for (int k = 0; k + 2 <= degree; ++k) {
+            bend =
+                std::max(bend, std::hypot(p[k].x - 2 * p[k + 1].x + p[k + 2].x, p[k].y - 2 * p[k + 1].y + p[k + 2].y));
+        }
+        return std::max(1, static_cast<int>(std::ceil(std::sqrt(bend * degree * (degree - 1) / 8 / tolerance))));
+    }
+
+    /// Away from an end, of length 1; nothing for a point.
+    [[nodiscard]] SilmapPoint direction(bool from_end) const {
+        const auto at = [&](int k) -> const SilmapPoint& { return p[from_end ? degree - k : k]; };
+        for (int k = 1; k <= degree; ++k) {
+            const double dx = at(k).x - at(0).x, dy = at(k).y - at(0).y, length = std::hypot(dx, dy);
+            if (length > 0) return {dx / length, dy / length};
+        }
+        return {};
+    }
+};
+
+bool on_line(HalfStep h) { return h % 2 == 0; }
+
+} // namespace
+
+SilmapPoint CellReader::place_of(const TexelMap& cell, std::uint32_t node) const {
+    const GridNode& n = map_.node(cell.graph.nodes[node]);
+    const Grid& g = map_.grid();
+    return {(n.x - static_cast<double>(g.px * cell.i)) / static_cast<double>(g.px),
+            (n.y - static_cast<double>(g.py * cell.j)) / static_cast<double>(g.py)};
+}
+
+void CellReader::add_edge(const TexelMap& cell, const Portion& portion, CellDrawing& out) {
+    const SweepEdge& e = cell.graph.edges[portion.edge];
+    const SubEdge& sub = cell.sub_edges[e.sub];
+    const Curve& c = *map_.stretch_of(sub).curve;
+    const Grid& g = map_.grid();
+    Polygon edge;
+    edge.degree = c.degree;
+    const auto n = static_cast<std::size_t>(c.degree);
+    edge.p[0] = place_of(cell, e.top), edge.p[n] = place_of(cell, e.bottom);
+    if (n > 1) {
+        const std::array<double, 4> x = stretch(c, Axis::X, sub.range.lo, sub.range.hi),
+                                    y = stretch(c, Axis::Y, sub.range.lo, sub.range.hi);
+        const auto x0 = static_cast<double>(c.x.origin - g.px * cell.i),
+                   y0 = static_cast<double>(c.y.origin - g.py * cell.j);
+        for (std::size_t k = 1; k < n; ++k) {
+            edge.p[e.down ? k : n - k] = {(x0 + x[k]) / static_cast<double>(g.px),
+                                          (y0 + y[k]) / static_cast<double>(g.py)};
+        }
+    }
+    ends_.push_back({e.top, edge.direction(false)}), ends_.push_back({e.bottom, edge.direction(true)});
+    const ResultId left = cell.left_result(portion), right = cell.right_result(portion);
+    const int chords = edge.chords(chord_);
+    SilmapPoint from = edge.p[0];
+    for (int k = 1; k <= chords; ++k) {
+        SilmapPoint to = k == chords ? edge.p[n] : edge.at(static_cast<double>(k) / chords);
+        to.y = std::clamp(to.y, from.y, std::max(from.y, edge.p[n].y)); // rounding
+        out.chords.push_back({from.x, from.y, to.x, to.y, left, right});
+        from = to;
+    }
+}
+
+/// Of the ends of visible edges, node by node.
+void CellReader::find_corners(const TexelMap& cell, CellDrawing& out) {
+    std::stable_sort(ends_.begin(), ends_.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.node < b.node; });
+    for (std::size_t k = 0; k < ends_.size();) {
+        const std::size_t first = k;
+        while (k < ends_.size() && ends_[k].node == ends_[first].node)
+            ++k;
+        const GridNode& node = map_.node(cell.graph.nodes[ends_[first].node]);
+        const SilmapPoint at = place_of(cell, ends_[first].node);
+        if (on_line(node.hx) || on_line(node.hy)) {
+            if (on_line(node.hx))
+                out.crossings[node.hx == cell.frame.left ? fetex::kSilmapWest : fetex::kSilmapEast].push_back(at.y);
+            if (on_line(node.hy))
+                out.crossings[node.hy == cell.frame.top ? fetex::kSilmapNorth : fetex::kSilmapSouth].push_back(at.x);
+            continue;
+        }
+        const auto edges = static_cast<std::uint32_t>(k - first);
+        double turn = 0;
+        if (edges == 2) {
+            const SilmapPoint &a = ends_[first].direction, &b = ends_[first + 1].direction;
+            turn = std::abs(std::atan2(a.y * b.x - a.x * b.y, -a.x * b.x - a.y * b.y));
+            if (turn <= budget::kCornerTurn) continue;
+        }
+        out.corners.push_back({at, edges, turn});
+    }
+}
+
+void CellReader::read(const TexelMap& cell, CellDrawing& out) {
+    out.chords.clear(), out.corners.clear(), out.left.clear(), ends_.clear();
+    for (std::vector<double>& side : out.crossings)
+        side.clear();
+    for (const Portion& p : cell.sweep.portions) {
+        if (cell.left_result(p) != cell.right_result(p)) add_edge(cell, p, out);
+    }
+    find_corners(cell, out);
+    for (const SidePart& part : cell.sweep.sides[static_cast<std::size_t>(TexelSide::Left)])
+        out.left.push_back({part.from == kNone ? 0 : place_of(cell, part.from).y, cell.results[part.face]});
+}
+
+} // namespace fetexc

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/silmap/cell_truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fetexc {
+namespace {
+
+double x_at(const CellChord& c, double y) { return c.x0 + (c.x1 - c.x0) * ((y - c.y0) / (c.y1 - c.y0)); }
+
+} // namespace
+
+/// What isn't level, cut where it crosses the box's sides, so that every chord lies on one side of each.
+void TruthBuilder::cut(const CellDrawing& drawing, const fetex::SilmapBox& box) {
+    chords_.clear();
+    for (CellChord c : drawing.chords) {
+        if (!(c.y0 < c.y1)) continue;
+        for (const double side : {box.x0, box.x1}) {
+            if (side <= 0 || side >= 1 || (c.x0 - side) * (c.x1 - side) >= 0) continue;
+            // The rest may cross the other side: the box is half a cell, the sides are met in the order along c or not
+            // at all.
+            const double y = std::clamp(c.y0 + (c.y1 - c.y0) * ((side - c.x0) / (c.x1 - c.x0)), c.y0, c.y1);
+            CellChord head = c;
+            head.x1 = side, head.y1 = y;
+            c.x0 = side, c.y0 = y;
+            if (head.y0 < head.y1) chords_.push_back(head);
+        }
+        if (c.y0 < c.y1) chords_.push_back(c);
+    }
+}
+
+void TruthBuilder::list_levels(const fetex::SilmapBox& box) {
+    levels_.assign({box.y0, box.y1});
+    const auto add = [&](double y) {
+        if (box.y0 < y && y < box.y1) levels_.push_back(y);
+    };
+    for (const CellChord& c : chords_)
+        add(c.y0), add(c.y1);
+    std::sort(levels_.begin(), levels_.end());
+    levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+    upright_ = levels_.size() > kMostLevels;
+    if (!upright_) return;
+    levels_.resize(kMostLevels);
+    for (std::size_t k = 0; k < kMostLevels; ++k)
+        levels_[k] = box.y0 + (box.y1 - box.y0) * (static_cast<double>(k) / (kMostLevels - 1));
+}
+
+void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& box, double y0, double y1,
+                            TruthSlabs& out) {
+    const double middle = (y0 + y1) / 2;
+    crossings_.clear();
+    for (const CellChord& c : chords_) {
+        if (!(c.y0 <= middle && middle < c.y1)) continue;
+        Crossing x{x_at(c, middle), 0, 0, &c};
+        x.top = upright_ ? x.middle : x_at(c, std::max(y0, c.y0)),
+        x.bottom = upright_ ? x.middle : x_at(c, std::min(y1, c.y1));
+        crossings_.push_back(x);
+    }
+    std::stable_sort(crossings_.begin(), crossings_.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.middle < b.middle; });
+    TruthSlab slab{y0, y1, 0, static_cast<std::uint32_t>(out.lines.size()), 0};
+    if (!crossings_.empty()) {
+        slab.left = crossings_.front().chord->left;
+    } else {
+        const auto below = std::upper_bound(drawing.left.begin(), drawing.left.end(), middle,
+                                            [](double y, const SideResult& r) { return y < r.y; });
+        slab.left = below == drawing.left.begin() ? drawing.left.front().result : std::prev(below)->result;
+    }
+    ResultId so_far = slab.left;
+    for (const Crossing& x : crossings_) {
+        if (x.middle >= box.x1) break;
+        if (x.middle <= box.x0) {
+            slab.left = so_far = x.chord->right;
+            continue;
+        }
+        if (x.chord->right == so_far) continue;
+        so_far = x.chord->right;
+        out.lines.push_back({x.top, x.bottom, so_far});
+    }
+    slab.lines = static_cast<std::uint32_t>(out.lines.size()) - slab.first;
+    out.slabs.push_back(slab);
+}
+
+void TruthBuilder::add(const CellDrawing& drawing, const fetex::SilmapBox& box, TruthSlabs& out) {
+    cut(drawing, box);
+    list_levels(box);
+    for (std::size_t k = 0; k + 1 < levels_.size(); ++k)
+        add_slab(drawing, box, levels_[k], levels_[k + 1], out);
+}
+
+void TruthBuilder::add_plain(ResultId result, const fetex::SilmapBox& box, TruthSlabs& out) {
+    out.slabs.push_back({box.y0, box.y1, result, static_cast<std::uint32_t>(out.lines.size()), 0});
+}
+
+} // namespace fetexc

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/silmap/silmap_builder.h"
+
+#include <algorithm>
+
+#include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
+#include "compiler/fbt/fbt_builder.h"
+#include "compiler/parallel.h"
+#include "compiler/silmap/cell_fit.h"
+#include "formats/fbt_samples.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::SilmapSampleFormat;
+
+Error inconsistent() {
+    return {ErrorClass::Runtime, diag::kPlanarInconsistent,
+            "the planar map contradicts itself; please report this file", ""};
+}
+
+/// In the middles of texels.
+std::vector<std::uint32_t> colors_of(const Scene& scene, const Compositor& compositor, const SilmapCells& cells,
+                                     const SilmapOptions& options) {
+    const fetex::FbtSampleFormat format = silmap_fbt_format(options.sample_format);
+    const std::size_t words = fetex::fbt_sample_words(format);
+    std::vector<std::uint32_t> out(words * cells.results.size());
+    parallel_for(cells.height, options.threads, [&](std::size_t j) {
+        const double y = (static_cast<double>(j) + 0.5) / cells.height * scene.extent.height;
+        for (std::uint32_t i = 0; i < cells.width; ++i) {
+            const std::size_t k = j * cells.width + i;
+            const Rgba c = compositor.color(cells.results[k], {(i + 0.5) / cells.width * scene.extent.width, y});
+            const bool opaque = options.sample_format == SilmapSampleFormat::Rgb8;
+            const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, opaque ? 1 : c.a}, format);
+            std::copy_n(packed.begin(), words, out.begin() + static_cast<std::ptrdiff_t>(words * k));
+        }
+    });
+    return out;
+}
+
+/// Points in the middle but where there is a boundary.
+std::vector<std::uint16_t> packed_cells(const SilmapCells& cells, fetex::SilmapCellFormat format) {
+    fetex::SilmapCell none;
+    none.x = none.y = fetex::silmap_step(format, 0.5);
+    const std::size_t columns = std::size_t{cells.width} + 1;
+    std::vector<std::uint16_t> out(columns * (std::size_t{cells.height} + 1), fetex::silmap_pack_cell(format, none));
+    for (const SilmapCellData& c : cells.cells) {
+        if (c.boundaries == 0) continue;
+        out[c.j * columns + c.i] =
+            fetex::silmap_pack_cell(format, {c.x, c.y, (c.boundaries >> fetex::kSilmapEast & 1) != 0,
+                                             (c.boundaries >> fetex::kSilmapSouth & 1) != 0});
+    }
+    return out;
+}
+
+void count_cells(const SilmapCells& cells, SilmapStats& stats) {
+    stats.cells = (std::uint64_t{cells.width} + 1) * (std::uint64_t{cells.height} + 1);
+    stats.cells_empty = stats.cells - cells.cells.size();
+    for (const SilmapCellData& c : cells.cells) {
+        if (c.boundaries == 0) continue;
+        ++stats.cells_edge;
+        stats.cells_corner += c.corners > 0 ? 1 : 0;
+    }
+}
+
+} // namespace
+
+Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& options, const ProgressSink& progress) {
+    const Result<GridSize> size = texels_for(scene.extent, options.size);
+    if (!size) return size.error();
+    SilmapBuild build;
+    build.report.scene = scene.stats;
+    if (progress) progress("planar map", 0);
+    const Grid grid = make_cell_grid(scene.extent, size.value().width, size.value().height);
+    const Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, build.report.planar, options.skip);
+    if (!map) return map.error();
+    const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
+    Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
+    if (progress) progress("silmap", 0);
+    const double chord = budget::kSilmapChord / fetex::silmap_steps(options.cell_format);
+    std::optional<SilmapCells> cells =
+        read_cells(map.value(), scene, compositor, chord, options.threads, options.skip, build.report.planar);
+    if (!cells) return inconsistent();
+    const double area = static_cast<double>(cells->width) * cells->height;
+    place_seeds(*cells, options.cell_format, options.threads);
+    build.stats.wrong_area_seed = wrong_area_of(*cells) / area;
+    if (progress) progress("silmap", 0.5);
+    const FitCounts counts = fit_points(*cells, options.cell_format, options.threads);
+    build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
+    build.stats.wrong_area = wrong_area_of(*cells) / area;
+    count_cells(*cells, build.stats);
+    fetex::SilmapTexture& t = build.texture;
+    t.width = cells->width, t.height = cells->height;
+    t.cell_format = options.cell_format, t.sample_format = options.sample_format;
+    t.cells = packed_cells(*cells, options.cell_format);
+    t.colors = colors_of(scene, compositor, *cells, options);
+    if (options.mips) t.mips = fetex::silmap_make_mips(t);
+    build.stats.gpu_bytes = fetex::silmap_gpu_bytes(t);
+    return build;
+}
+
+} // namespace fetexc

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The results in the middles of texels, and the cells between them that show or hold more than one.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "compiler/compile.h"
+#include "compiler/parallel.h"
+#include "compiler/planar/planar_map.h"
+#include "compiler/silmap/wrong_area.h"
+
+namespace fetexc {
+
+/// A link across which a neighbour's point is the own one, a cell further: at the border of the canvas.
+inline constexpr std::uint32_t kOwnPoint = kNone - 1;
+
+struct SilmapCellData {
+    std::uint32_t i = 0, j = 0;
+    std::uint32_t boundaries = 0; ///< set of links
+    /// By link, where it is a boundary: index of the cell, or kOwnPoint.
+    std::array<std::uint32_t, 4> neighbours{kNone, kNone, kNone, kNone};
+    ShownCell shown;
+    std::uint32_t x = 0, y = 0; ///< the point in steps
+    double wrong = 0;           ///< of `shown`
+    std::uint32_t first_slab = 0, slabs = 0;
+    std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
+    std::uint32_t corners = 0;      ///< of the drawing, inside
+    fetex::SilmapPoint seed{0.5, 0.5};
+    std::array<float, 4> crossing{-1, -1, -1, -1}; ///< of an edge on a side that has one only, else -1
+};
+
+struct SilmapCells {
+    std::uint32_t width = 0, height = 0; ///< texels
+    std::vector<ResultId> results;       ///< width·height: in the middles of texels
+    std::vector<ResultId> left, top;     ///< height + 1 and width + 1: in the corner of the border cells
+    std::vector<SilmapCellData> cells;   ///< with edges or boundaries, row by row
+    std::vector<std::uint32_t> row_start;
+    std::vector<TruthSlabs> truth; ///< by row
+
+    /// Of a corner of cell (i,j); texels repeat beyond the border.
+    [[nodiscard]] ResultId corner(std::uint32_t i, std::uint32_t j, std::uint32_t corner) const;
+    /// Of a cell without edges.
+    [[nodiscard]] ResultId inside(std::uint32_t i, std::uint32_t j) const;
+    [[nodiscard]] fetex::SilmapBox box(const SilmapCellData& c) const;
+    [[nodiscard]] double wrong(const SilmapCellData& c, const ShownCell& shown) const {
+        return wrong_area(truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c), shown);
+    }
+};
+
+/// map: of make_cell_grid. chord: cells. Points are where an edge turns or meets others, else on an edge.
+std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
+                                      unsigned threads, const SkipRules& skip, PlanarStats& stats);
+
+/// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
+void link_cells(SilmapCells& cells, unsigned threads);
+
+/// Where the neighbour's point is, in the cell's frame. Precondition: the link is a boundary.
+fetex::SilmapPoint point_across(const SilmapCells& cells, const SilmapCellData& c, const fetex::SilmapPoint& point,
+                                std::uint32_t link);
+
+/// Where its links leave the cell with a point at `point`.
+ShownCell shown_with(const SilmapCells& cells, const SilmapCellData& c, const fetex::SilmapPoint& point);
+
+} // namespace fetexc
