@@ -11,6 +11,7 @@
 #include "cli/bench/bench_csv.h"
 #include "cli/bench/bench_page.h"
 #include "cli/bench/sweep.h"
+#include "cli/fetex_input.h"
 #include "cli/io.h"
 #include "cli/messages.h"
 #include "cli/options.h"
@@ -24,7 +25,7 @@ namespace {
 constexpr std::uint32_t kLeastRounds = 11, kMostRounds = 10001;
 
 struct BenchOptions {
-    std::vector<std::string> inputs, representations = {"fbt", "bilevel"};
+    std::vector<std::string> inputs, representations = {"fbt", "bilevel", "silmap"};
     std::string csv, html, plot;
     std::string backend = "osmesa";
     std::uint32_t rounds = kLeastRounds;
@@ -110,6 +111,7 @@ int run_bench(BenchOptions options) {
     if (std::ranges::count(options.representations, "fbt") == 0)
         return report_error({ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt: its sizes are swept", {}});
     options.sweep.bilevel = std::ranges::count(options.representations, "bilevel") > 0;
+    options.sweep.silmap = std::ranges::count(options.representations, "silmap") > 0;
     std::optional<SamplerTimer> timer; // before anything starts a thread
     if (options.sweep.timing) {
         timer.emplace(options.backend, options.rounds);
@@ -143,9 +145,9 @@ Command add_bench_command(CLI::App& parent) {
     add_sizes(*app, "--output-size", options->sweep.outputs,
               "Pixels on the longer side where errors are measured; plots show the last (default 512)");
     app->add_option("--repr", options->representations,
-                    "Representations: fbt, whose sizes are swept, and bilevel (default: both)")
+                    "Representations: fbt, whose sizes are swept, bilevel and silmap (default: all)")
         ->delimiter(',')
-        ->check(CLI::IsMember({"fbt", "bilevel"}))
+        ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");
     app->add_option("--csv", options->csv, "Write every figure; - for stdout, the default when nothing else is written")
         ->type_name("FILE");

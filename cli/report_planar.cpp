@@ -21,6 +21,7 @@ std::string planar_text(const PlanarStats& p) {
     text +=
         fmt::format("  planar map {} crossings, {} grid crossings, {} vertices, {} edges, {} trapezoids, {} regions\n",
                     p.crossings, p.grid_crossings, p.vertices, p.edges, p.trapezoids, p.regions);
+    if (p.regions_connected == 0) return text; // nobody asked
     text += fmt::format("  reachable  {} parts of the picture separated by visible edges ({} vertices, {} links)\n",
                         p.regions_connected, p.reach_vertices, p.reach_links);
     text += fmt::format("  edges      {} visible, {} invisible ones dropped\n", p.edges_visible, p.edges_invisible);

@@ -73,7 +73,10 @@ const char* explanation(std::size_t method) {
         "what fetexc makes of drawings of two plain colours: one channel whose values are chosen so that, smoothed and "
         "cut at one half, they are the drawing",
         "the same with one, two or three channels, whichever shows least wrong: where two edges meet each can have a "
-        "channel of its own"};
+        "channel of its own",
+        "what fetexc makes of drawings for small shaders: an ordinary texture, and for each of its cells one point and "
+        "two bits that say where colours end",
+        "the same with points on a finer grid"};
     return kTexts[method];
 }
 

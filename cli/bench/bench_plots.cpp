@@ -136,7 +136,9 @@ const std::array<std::string, kPlotStyles>& bench_methods() {
         measure::alternative_name(measure::Alternative::BoxThreshold),
         measure::alternative_name(measure::Alternative::DistanceField),
         kBilevelOneMethod,
-        kBilevelMethod};
+        kBilevelMethod,
+        kSilmapMethod,
+        kSilmapWideMethod};
     return names;
 }
 

@@ -17,6 +17,8 @@ namespace fetexc::cli {
 inline constexpr const char* kFbtMethod = "feature-based texture";
 inline constexpr const char* kBilevelOneMethod = "bi-level R8";
 inline constexpr const char* kBilevelMethod = "bi-level of 1 to 3 channels";
+inline constexpr const char* kSilmapMethod = "silhouette map";
+inline constexpr const char* kSilmapWideMethod = "silhouette map, 16-bit cells";
 
 /// By the clock, in one run on one machine.
 struct BenchTimes {
@@ -24,7 +26,7 @@ struct BenchTimes {
     double compile_ratio = 0;   ///< median of the ratios to the yardstick (compile_time.h)
     std::optional<fetex::SamplerCost> sampler;
     std::string why_no_sampler;                          ///< if there is none
-    std::optional<fetex::SamplerCost> area_sampler = {}; ///< of means over pixels; FBTs and bi-level textures
+    std::optional<fetex::SamplerCost> area_sampler = {}; ///< of means over pixels, where the sampler has them
 };
 
 struct BenchPoint {

@@ -27,9 +27,11 @@ constexpr std::array<Style, kPlotStyles> kStyles = {{{"#0072b2", "", 2.6},
                                                      {"#009e73", "2 3", 1.8},
                                                      {"#9b4d8f", "9 3 2 3", 1.8},
                                                      {"#8a6500", "5 2 1 2", 1.8},
-                                                     {"#222222", "", 1.8}}};
+                                                     {"#222222", "", 1.8},
+                                                     {"#c2185b", "12 3", 1.8},
+                                                     {"#3f8f29", "1 3", 1.8}}};
 
-/// Round, square, triangle, diamond, triangle on its point, cross.
+/// Round, square, triangle, diamond, triangle on its point, cross, bar, hexagon.
 std::string mark(std::size_t style, double x, double y, bool hollow, const std::string& description) {
     const char* color = kStyles[style].color;
     const std::string paint =
@@ -50,6 +52,11 @@ std::string mark(std::size_t style, double x, double y, bool hollow, const std::
         return fmt::format(R"(<path d="M{:.1f},{:.1f}l5,5l-5,5l-5,-5z" {}{})", x, y - 5, paint, closed("path"));
     case 4:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}l4.6,-8h-9.2z" {}{})", x, y + 5, paint, closed("path"));
+    case 6:
+        return fmt::format(R"(<path d="M{:.1f},{:.1f}h11v4h-11z" {}{})", x - 5.5, y - 2, paint, closed("path"));
+    case 7:
+        return fmt::format(R"(<path d="M{:.1f},{:.1f}l4.2,2.4v4.8l-4.2,2.4l-4.2,-2.4v-4.8z" {}{})", x, y - 4.8, paint,
+                           closed("path"));
     default:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}h3v3h3v3h-3v3h-3v-3h-3v-3h3z" {}{})", x - 1.5, y - 4.5, paint,
                            closed("path"));

@@ -70,6 +70,16 @@ std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::BilevelTe
     return timed(upload(texture), fetex::Sampler::BilevelArea);
 }
 
+std::optional<fetex::SamplerCost> SamplerTimer::cost(const fetex::SilmapTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(gl_->upload_silmap(texture), fetex::Sampler::Silmap);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::SilmapTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(gl_->upload_silmap(texture), fetex::Sampler::SilmapArea);
+}
+
 std::optional<fetex::SamplerCost> SamplerTimer::cost(const measure::FieldPicture& picture) {
     if (!gl_) return std::nullopt;
     const Rgba &below = picture.below(), &above = picture.above();

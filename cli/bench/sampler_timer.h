@@ -28,6 +28,8 @@ class SamplerTimer {
     /// Through the hardware's filter where a probe finds that good enough.
     std::optional<fetex::SamplerCost> cost(const fetex::BilevelTexture& texture);
     std::optional<fetex::SamplerCost> area_cost(const fetex::BilevelTexture& texture);
+    std::optional<fetex::SamplerCost> cost(const fetex::SilmapTexture& texture);
+    std::optional<fetex::SamplerCost> area_cost(const fetex::SilmapTexture& texture);
     std::optional<fetex::SamplerCost> cost(const measure::FieldPicture& field);
     /// Of the bitmap itself: 1 but for noise.
     std::optional<fetex::SamplerCost> cost_of_bitmap();

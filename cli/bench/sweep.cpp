@@ -16,6 +16,7 @@
 #include "compiler/measure/classifier.h"
 #include "compiler/measure/pictures.h"
 #include "compiler/measure/sparse_bitmap.h"
+#include "compiler/silmap/silmap_builder.h"
 #include "compiler/svg/svg.h"
 
 namespace fetexc::cli {
@@ -67,10 +68,28 @@ class BitmapLadder {
 /// What is held against the FBT, in as many bytes.
 struct Rival {
     BenchPoint point;
-    std::unique_ptr<const fetex::BilevelTexture> texture; ///< what the picture of a bi-level texture looks into
     std::unique_ptr<const measure::Picture> picture;      ///< null: doesn't apply to the drawing
     std::function<Status(const Scene&)> make;             ///< again, on one thread
+    std::function<void(SamplerTimer&, BenchTimes&)> time; ///< its samplers; empty: the bitmap's alone
 };
+
+std::unique_ptr<const measure::Picture> picture_of(const fetex::BilevelTexture& t) {
+    return std::make_unique<const measure::BilevelPicture>(t);
+}
+std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t) {
+    return std::make_unique<const measure::SilmapPicture>(t);
+}
+
+/// Gives the rival its texture, which picture and timer share.
+template <class Texture> void show(Rival& rival, Texture made) {
+    const auto texture = std::make_shared<const Texture>(std::move(made));
+    rival.picture = picture_of(*texture);
+    rival.time = [texture](SamplerTimer& timer, BenchTimes& times) {
+        times.sampler = timer.cost(*texture);
+        if (!times.sampler) times.why_no_sampler = timer.why();
+        times.area_sampler = timer.area_cost(*texture);
+    };
+}
 
 /// The sweep of one drawing.
 class Sweep {
@@ -87,6 +106,7 @@ class Sweep {
     [[nodiscard]] BenchPoint rival_point(const char* method, std::uint32_t size, std::string note) const;
     Result<Rival> alternative(Alternative kind, std::uint64_t bytes, std::uint32_t size) const;
     Result<Rival> bilevel(std::uint32_t channels, std::uint64_t bytes, std::uint32_t size) const;
+    Result<Rival> silmap(fetex::SilmapCellFormat cells, std::uint64_t bytes, std::uint32_t size) const;
     Result<std::vector<Rival>> rivals_of(std::uint64_t bytes, std::uint32_t size) const;
     void measure_into(const measure::Picture& picture, BenchPoint& point) const;
     Status time_into(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture);
@@ -222,13 +242,28 @@ Result<Rival> Sweep::bilevel(std::uint32_t channels, std::uint64_t bytes, std::u
     if (!rival.point.note.empty()) return rival;
     auto made = bilevel_of(scene_, channels, bytes, options_.threads);
     if (!made) return made.error();
-    rival.texture = std::make_unique<const fetex::BilevelTexture>(std::move(made.value().texture));
-    rival.picture = std::make_unique<const measure::BilevelPicture>(*rival.texture);
-    rival.point.options = fmt::format("rule={}", rule_name(rival.texture->rule));
+    rival.point.options = fmt::format("rule={}", rule_name(made.value().texture.rule));
+    show(rival, std::move(made.value().texture));
     rival.make = [channels, bytes](const Scene& scene) -> Status {
         const auto again = bilevel_of(scene, channels, bytes, 1);
         return again ? Status() : Status(again.error());
     };
+    return rival;
+}
+
+Result<Rival> Sweep::silmap(fetex::SilmapCellFormat cells, std::uint64_t bytes, std::uint32_t size) const {
+    Rival rival;
+    rival.point = rival_point(cells == fetex::SilmapCellFormat::Bits8 ? kSilmapMethod : kSilmapWideMethod, size, "");
+    SilmapOptions options;
+    options.cell_format = cells, options.threads = options_.threads;
+    auto made = compile_silmap_at_chosen_size(scene_, options, bytes, 0);
+    if (!made) return made.error();
+    options.size = {made.value().texture.width, made.value().texture.height}, options.threads = 1;
+    rival.make = [options](const Scene& scene) -> Status {
+        const auto again = compile_silmap(scene, options);
+        return again ? Status() : Status(again.error());
+    };
+    show(rival, std::move(made.value().texture));
     return rival;
 }
 
@@ -247,6 +282,10 @@ Result<std::vector<Rival>> Sweep::rivals_of(std::uint64_t bytes, std::uint32_t s
     for (const std::uint32_t channels : {1u, 0u}) {
         if (!options_.bilevel) break;
         if (const Status status = add(bilevel(channels, bytes, size)); !status) return status.error();
+    }
+    for (const auto cells : {fetex::SilmapCellFormat::Bits8, fetex::SilmapCellFormat::Bits16}) {
+        if (!options_.silmap) break;
+        if (const Status status = add(silmap(cells, bytes, size)); !status) return status.error();
     }
     return rivals;
 }
@@ -318,9 +357,7 @@ void Sweep::time_samplers(BenchPoint& fbt, std::span<Rival> rivals, const fetex:
     for (Rival& rival : rivals) {
         if (const auto* field = dynamic_cast<const measure::FieldPicture*>(rival.picture.get()))
             set(rival.point, timer_->cost(*field));
-        if (!rival.texture) continue;
-        set(rival.point, timer_->cost(*rival.texture));
-        rival.point.times->area_sampler = timer_->area_cost(*rival.texture);
+        if (rival.time) rival.time(*timer_, *rival.point.times);
     }
 }
 
