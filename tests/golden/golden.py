@@ -13,6 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 LIST = HERE / "golden.sha256"
 SIZES = (64, 128)  # texels of FBTs
 BYTES = (768, 3072)  # of bi-level textures, mip levels included
+CELL_BITS = (8, 16)  # of silhouette maps
 JOBS = (1, 2)
 TIME_LIMIT = 300  # seconds for one drawing
 
@@ -25,10 +26,14 @@ def compile_digest(fetexc, drawing, how, jobs, folder):
 
 
 def assets(art):
-    """Yields (name, drawing, options): all drawings as FBTs, those of two colours as bi-level textures."""
+    """Yields (name, drawing, options): all drawings as FBTs and silhouette maps, those of two colours as bi-level
+    textures."""
     for drawing in sorted(art.glob("*.svg")):
         for size in SIZES:
             yield f"{drawing.stem}.{size}.fbt", drawing, ["--size", str(size)]
+        for bits in CELL_BITS:
+            options = ["--repr", "silmap", "--mips", "--size", str(SIZES[0]), "--cell-bits", str(bits)]
+            yield f"{drawing.stem}.{bits}.silmap", drawing, options
     for drawing in sorted((art / "alternatives").glob("*.svg")):
         for size in BYTES:
             options = ["--repr", "bilevel", "--mips", "--max-bytes", str(size)]
