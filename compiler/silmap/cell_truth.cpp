@@ -30,13 +30,16 @@ void TruthBuilder::cut(const CellDrawing& drawing, const fetex::SilmapBox& box) 
     }
 }
 
-void TruthBuilder::list_levels(const fetex::SilmapBox& box) {
+void TruthBuilder::list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box) {
     levels_.assign({box.y0, box.y1});
     const auto add = [&](double y) {
         if (box.y0 < y && y < box.y1) levels_.push_back(y);
     };
     for (const CellChord& c : chords_)
         add(c.y0), add(c.y1);
+    for (const CellChord& c : drawing.chords) {
+        if (c.y0 == c.y1) add(c.y0);
+    }
     std::sort(levels_.begin(), levels_.end());
     levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
     upright_ = levels_.size() > kMostLevels;
@@ -84,7 +87,7 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
 
 void TruthBuilder::add(const CellDrawing& drawing, const fetex::SilmapBox& box, TruthSlabs& out) {
     cut(drawing, box);
-    list_levels(box);
+    list_levels(drawing, box);
     for (std::size_t k = 0; k + 1 < levels_.size(); ++k)
         add_slab(drawing, box, levels_[k], levels_[k + 1], out);
 }

@@ -43,7 +43,7 @@ class TruthBuilder {
 
   private:
     void cut(const CellDrawing& drawing, const fetex::SilmapBox& box);
-    void list_levels(const fetex::SilmapBox& box);
+    void list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box);
     void add_slab(const CellDrawing& drawing, const fetex::SilmapBox& box, double y0, double y1, TruthSlabs& out);
 
     struct Crossing {
