@@ -62,7 +62,7 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
     }
     std::stable_sort(crossings_.begin(), crossings_.end(),
                      [](const Crossing& a, const Crossing& b) { return a.middle < b.middle; });
-    TruthSlab slab{y0, y1, 0, static_cast<std::uint32_t>(out.lines.size()), 0};
+    TruthSlab slab{y0, y1, 1 / (y1 - y0), 0, static_cast<std::uint32_t>(out.lines.size()), 0};
     if (!crossings_.empty()) {
         slab.left = crossings_.front().chord->left;
     } else {
@@ -79,7 +79,7 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
         }
         if (x.chord->right == so_far) continue;
         so_far = x.chord->right;
-        out.lines.push_back({x.top, x.bottom, so_far});
+        out.lines.push_back({x.top, x.bottom - x.top, so_far});
     }
     slab.lines = static_cast<std::uint32_t>(out.lines.size()) - slab.first;
     out.slabs.push_back(slab);
@@ -93,7 +93,7 @@ void TruthBuilder::add(const CellDrawing& drawing, const fetex::SilmapBox& box, 
 }
 
 void TruthBuilder::add_plain(ResultId result, const fetex::SilmapBox& box, TruthSlabs& out) {
-    out.slabs.push_back({box.y0, box.y1, result, static_cast<std::uint32_t>(out.lines.size()), 0});
+    out.slabs.push_back({box.y0, box.y1, 1 / (box.y1 - box.y0), result, static_cast<std::uint32_t>(out.lines.size()), 0});
 }
 
 } // namespace fetexc

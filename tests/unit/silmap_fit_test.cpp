@@ -108,16 +108,18 @@ struct Fitted {
     /// What a cell's point at another place would take away, of the cell and its neighbours.
     [[nodiscard]] double gain(SilmapCellData& c, const fetex::SilmapPoint& p) {
         const fetex::SilmapPoint before = c.shown.point;
-        double gain = c.wrong;
         c.shown.point = p;
-        gain -= cells.wrong(c, shown_with(cells, c, p));
+        double gain = c.wrong - wrong_now(c);
         for (const std::uint32_t n : c.neighbours) {
-            if (n >= kOwnPoint) continue;
-            const SilmapCellData& beside = cells.cells[n];
-            gain += beside.wrong - cells.wrong(beside, shown_with(cells, beside, beside.shown.point));
+            if (n < kOwnPoint) gain += cells.cells[n].wrong - wrong_now(cells.cells[n]);
         }
         c.shown.point = before;
         return gain;
+    }
+    [[nodiscard]] double wrong_now(SilmapCellData c) const {
+        c.shown.exit = exits_of(cells, c, c.shown.point);
+        cells.measure(c);
+        return c.wrong;
     }
 
     /// The most that one move of one point takes away, in the whole.
