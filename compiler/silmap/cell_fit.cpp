@@ -60,10 +60,11 @@ class PointFit {
     }
 
     struct Trial {
-        ShownCell own;
-        std::array<double, 4> exit{}; ///< of neighbours, by link
-        std::array<double, 4> wrong{};
-        double own_wrong = 0, sum = 0;
+        SilmapPoint point;
+        std::array<double, 4> exit{}, right{};                       ///< own, by link
+        std::array<double, 4> neighbour_exit{}, neighbour_right{}; ///< of the opposite link of the neighbour there
+        double gain = 0;                                             ///< own and neighbours', square cells
+        std::int64_t x = -1, y = -1;
     };
 
     [[nodiscard]] SilmapPoint position(std::int64_t x, std::int64_t y) const {
@@ -71,65 +72,65 @@ class PointFit {
                 fetex::silmap_position(format_, static_cast<std::uint32_t>(y))};
     }
 
-    [[nodiscard]] double sum_now(const SilmapCellData& c) const {
-        double sum = c.wrong;
-        for (const std::uint32_t n : c.neighbours) {
-            if (n < kOwnPoint) sum += cells_.cells[n].wrong;
-        }
-        return sum;
-    }
-
-    /// False: not less than `bar`.
-    bool evaluate(const SilmapCellData& c, const SilmapPoint& p, double bar, Trial& t) const {
-        t.own = shown_with(cells_, c, p);
-        t.own_wrong = cells_.wrong(c, t.own);
-        t.sum = t.own_wrong;
+    /// What the point at another place takes away.
+    void evaluate(const SilmapCellData& c, Trial& t) const {
         constexpr std::array<SilmapPoint, 4> from_neighbour{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-        for (std::uint32_t link = 0; link < 4 && t.sum < bar; ++link) {
-            if (c.neighbours[link] >= kOwnPoint) continue;
-            const SilmapCellData& n = cells_.cells[c.neighbours[link]];
-            ShownCell shown = n.shown;
-            shown.link(opposite(link), {p.x + from_neighbour[link].x, p.y + from_neighbour[link].y});
-            t.exit[link] = shown.exit[opposite(link)];
-            t.wrong[link] = cells_.wrong(n, shown);
-            t.sum += t.wrong[link];
+        t.gain = 0;
+        const CellTruth truth = cells_.truth_of(c);
+        for (std::uint32_t link = 0; link < 4; ++link) {
+            const std::uint32_t neighbour = c.neighbours[link];
+            if (neighbour == kNone) continue;
+            t.exit[link] = ShownCell::exit_of(t.point, link, point_across(cells_, c, t.point, link));
+            t.right[link] = link_area(truth, t.point, link, t.exit[link], c.shown.corners);
+            t.gain += t.right[link] - c.right[link];
+            if (neighbour == kOwnPoint) continue;
+            const SilmapCellData& n = cells_.cells[neighbour];
+            const std::uint32_t back = opposite(link);
+            const SilmapPoint across{t.point.x + from_neighbour[link].x, t.point.y + from_neighbour[link].y};
+            t.neighbour_exit[link] = ShownCell::exit_of(n.shown.point, back, across);
+            t.neighbour_right[link] =
+                link_area(cells_.truth_of(n), n.shown.point, back, t.neighbour_exit[link], n.shown.corners);
+            t.gain += t.neighbour_right[link] - n.right[back];
         }
-        return t.sum < bar;
     }
 
     bool improve(std::uint32_t index, std::int64_t stride, std::uint64_t& tried) {
         SilmapCellData& c = cells_.cells[index];
         bool moved = false;
-        double bar = sum_now(c) - budget::kSilmapWorthAMove;
         for (;;) {
             Trial best, trial;
-            std::int64_t best_x = -1, best_y = -1;
-            if (!(bar > 0)) break;
+            best.gain = budget::kSilmapWorthAMove;
             for (std::int64_t dy = -stride; dy <= stride; dy += stride) {
                 for (std::int64_t dx = -stride; dx <= stride; dx += stride) {
-                    const std::int64_t x = c.x + dx, y = c.y + dy;
-                    if ((dx == 0 && dy == 0) || x < 0 || y < 0 || x >= steps_ || y >= steps_) continue;
+                    trial.x = c.x + dx, trial.y = c.y + dy;
+                    if ((dx == 0 && dy == 0) || trial.x < 0 || trial.y < 0 || trial.x >= steps_ || trial.y >= steps_)
+                        continue;
                     ++tried;
-                    if (!evaluate(c, position(x, y), bar, trial)) continue;
-                    best = trial, bar = trial.sum, best_x = x, best_y = y;
+                    trial.point = position(trial.x, trial.y);
+                    evaluate(c, trial);
+                    if (trial.gain > best.gain) best = trial;
                 }
             }
-            if (best_x < 0) break;
+            if (best.x < 0) break;
             moved = true;
-            accept(c, best, best_x, best_y);
-            bar = best.sum - budget::kSilmapWorthAMove;
+            accept(c, best);
         }
         if (moved) mark_around(c);
         return moved;
     }
 
-    void accept(SilmapCellData& c, const Trial& t, std::int64_t x, std::int64_t y) {
-        c.x = static_cast<std::uint32_t>(x), c.y = static_cast<std::uint32_t>(y);
-        c.shown = t.own, c.wrong = t.own_wrong;
+    void accept(SilmapCellData& c, const Trial& t) {
+        c.x = static_cast<std::uint32_t>(t.x), c.y = static_cast<std::uint32_t>(t.y);
+        c.shown.point = t.point;
         for (std::uint32_t link = 0; link < 4; ++link) {
-            if (c.neighbours[link] >= kOwnPoint) continue;
+            if (c.neighbours[link] == kNone) continue;
+            c.wrong -= t.right[link] - c.right[link];
+            c.shown.exit[link] = t.exit[link], c.right[link] = t.right[link];
+            if (c.neighbours[link] == kOwnPoint) continue;
             SilmapCellData& n = cells_.cells[c.neighbours[link]];
-            n.shown.exit[opposite(link)] = t.exit[link], n.wrong = t.wrong[link];
+            const std::uint32_t back = opposite(link);
+            n.wrong -= t.neighbour_right[link] - n.right[back];
+            n.shown.exit[back] = t.neighbour_exit[link], n.right[back] = t.neighbour_right[link];
         }
     }
 

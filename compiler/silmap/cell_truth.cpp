@@ -30,13 +30,16 @@ void TruthBuilder::cut(const CellDrawing& drawing, const fetex::SilmapBox& box) 
     }
 }
 
-void TruthBuilder::list_levels(const fetex::SilmapBox& box) {
+void TruthBuilder::list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box) {
     levels_.assign({box.y0, box.y1});
     const auto add = [&](double y) {
         if (box.y0 < y && y < box.y1) levels_.push_back(y);
     };
     for (const CellChord& c : chords_)
         add(c.y0), add(c.y1);
+    for (const CellChord& c : drawing.chords) {
+        if (c.y0 == c.y1) add(c.y0);
+    }
     std::sort(levels_.begin(), levels_.end());
     levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
     upright_ = levels_.size() > kMostLevels;
@@ -59,7 +62,7 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
     }
     std::stable_sort(crossings_.begin(), crossings_.end(),
                      [](const Crossing& a, const Crossing& b) { return a.middle < b.middle; });
-    TruthSlab slab{y0, y1, 0, static_cast<std::uint32_t>(out.lines.size()), 0};
+    TruthSlab slab{y0, y1, 1 / (y1 - y0), 0, static_cast<std::uint32_t>(out.lines.size()), 0};
     if (!crossings_.empty()) {
         slab.left = crossings_.front().chord->left;
     } else {
@@ -76,7 +79,7 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
         }
         if (x.chord->right == so_far) continue;
         so_far = x.chord->right;
-        out.lines.push_back({x.top, x.bottom, so_far});
+        out.lines.push_back({x.top, x.bottom - x.top, so_far});
     }
     slab.lines = static_cast<std::uint32_t>(out.lines.size()) - slab.first;
     out.slabs.push_back(slab);
@@ -84,13 +87,13 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
 
 void TruthBuilder::add(const CellDrawing& drawing, const fetex::SilmapBox& box, TruthSlabs& out) {
     cut(drawing, box);
-    list_levels(box);
+    list_levels(drawing, box);
     for (std::size_t k = 0; k + 1 < levels_.size(); ++k)
         add_slab(drawing, box, levels_[k], levels_[k + 1], out);
 }
 
 void TruthBuilder::add_plain(ResultId result, const fetex::SilmapBox& box, TruthSlabs& out) {
-    out.slabs.push_back({box.y0, box.y1, result, static_cast<std::uint32_t>(out.lines.size()), 0});
+    out.slabs.push_back({box.y0, box.y1, 1 / (box.y1 - box.y0), result, static_cast<std::uint32_t>(out.lines.size()), 0});
 }
 
 } // namespace fetexc

@@ -10,15 +10,15 @@
 
 namespace fetexc {
 
-/// x at the slab's top and bottom, and the result from there on to the right.
+/// x at the slab's top, what it grows by to the slab's bottom, and the result from there on to the right.
 struct TruthLine {
-    double top = 0, bottom = 0;
+    double top = 0, run = 0;
     ResultId right = 0;
 };
 
 struct TruthSlab {
-    double y0 = 0, y1 = 0;
-    ResultId left = 0; ///< up to the first line
+    double y0 = 0, y1 = 0, per_height = 0; ///< 1 / (y1 − y0)
+    ResultId left = 0;                     ///< up to the first line
     std::uint32_t first = 0, lines = 0;
 };
 
@@ -43,7 +43,7 @@ class TruthBuilder {
 
   private:
     void cut(const CellDrawing& drawing, const fetex::SilmapBox& box);
-    void list_levels(const fetex::SilmapBox& box);
+    void list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box);
     void add_slab(const CellDrawing& drawing, const fetex::SilmapBox& box, double y0, double y1, TruthSlabs& out);
 
     struct Crossing {

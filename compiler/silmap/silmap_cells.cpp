@@ -162,14 +162,22 @@ SilmapPoint point_across(const SilmapCells& cells, const SilmapCellData& c, cons
     return {p.x + kToNeighbour[link].x, p.y + kToNeighbour[link].y};
 }
 
-ShownCell shown_with(const SilmapCells& cells, const SilmapCellData& c, const SilmapPoint& point) {
-    ShownCell shown;
-    shown.corners = c.shown.corners, shown.point = point;
-    shown.exit = {point.y, point.x, point.y, point.x};
+std::array<double, 4> exits_of(const SilmapCells& cells, const SilmapCellData& c, const SilmapPoint& point) {
+    std::array<double, 4> exit{point.y, point.x, point.y, point.x};
     for (std::uint32_t link = 0; link < 4; ++link) {
-        if (c.neighbours[link] != kNone) shown.link(link, point_across(cells, c, point, link));
+        if (c.neighbours[link] != kNone)
+            exit[link] = ShownCell::exit_of(point, link, point_across(cells, c, point, link));
     }
-    return shown;
+    return exit;
+}
+
+void SilmapCells::measure(SilmapCellData& c) const {
+    const CellTruth t = truth_of(c);
+    c.wrong = (t.box.x1 - t.box.x0) * (t.box.y1 - t.box.y0) - area_of(t, c.shown.corners[fetex::kSilmapSE]);
+    for (std::uint32_t link = 0; link < 4; ++link) {
+        c.right[link] = link_area(t, c.shown.point, link, c.shown.exit[link], c.shown.corners);
+        c.wrong -= c.right[link];
+    }
 }
 
 void link_cells(SilmapCells& cells, unsigned threads) {
@@ -182,8 +190,8 @@ void link_cells(SilmapCells& cells, unsigned threads) {
     };
     each([&](SilmapCellData& c) { link(cells, c); });
     each([&](SilmapCellData& c) {
-        c.shown = shown_with(cells, c, c.shown.point);
-        c.wrong = cells.wrong(c, c.shown);
+        c.shown.exit = exits_of(cells, c, c.shown.point);
+        cells.measure(c);
     });
 }
 

@@ -9,7 +9,7 @@
 #include "compiler/compile.h"
 #include "compiler/parallel.h"
 #include "compiler/planar/planar_map.h"
-#include "compiler/silmap/wrong_area.h"
+#include "compiler/silmap/link_area.h"
 
 namespace fetexc {
 
@@ -23,7 +23,8 @@ struct SilmapCellData {
     std::array<std::uint32_t, 4> neighbours{kNone, kNone, kNone, kNone};
     ShownCell shown;
     std::uint32_t x = 0, y = 0; ///< the point in steps
-    double wrong = 0;           ///< of `shown`
+    std::array<double, 4> right{}; ///< of `shown`: link_area
+    double wrong = 0;              ///< of `shown`: of the cell's part in the canvas, square cells
     std::uint32_t first_slab = 0, slabs = 0;
     std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
     std::uint32_t corners = 0;      ///< of the drawing, inside
@@ -44,9 +45,11 @@ struct SilmapCells {
     /// Of a cell without edges.
     [[nodiscard]] ResultId inside(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] fetex::SilmapBox box(const SilmapCellData& c) const;
-    [[nodiscard]] double wrong(const SilmapCellData& c, const ShownCell& shown) const {
-        return wrong_area(truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c), shown);
+    [[nodiscard]] CellTruth truth_of(const SilmapCellData& c) const {
+        return {truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c)};
     }
+    /// Of what it shows: areas right by link, and the area that is wrong.
+    void measure(SilmapCellData& c) const;
 };
 
 /// map: of make_cell_grid. chord: cells. Points are where an edge turns or meets others, else on an edge.
@@ -61,6 +64,6 @@ fetex::SilmapPoint point_across(const SilmapCells& cells, const SilmapCellData& 
                                 std::uint32_t link);
 
 /// Where its links leave the cell with a point at `point`.
-ShownCell shown_with(const SilmapCells& cells, const SilmapCellData& c, const fetex::SilmapPoint& point);
+std::array<double, 4> exits_of(const SilmapCells& cells, const SilmapCellData& c, const fetex::SilmapPoint& point);
 
 } // namespace fetexc
