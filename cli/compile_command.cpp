@@ -106,7 +106,7 @@ SilmapRequest silmap_request(const CompileCommandOptions& options, const Extent&
 std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
     std::string text = fmt::format("repr={}", fmt::join(options.representations, ","));
     if (compiled.fbt) text += fmt::format(" size={}x{}", compiled.fbt->texture.width, compiled.fbt->texture.height);
-    if (compiled.fbt && !options.image.image.empty()) text += fmt::format(" invalidate={}", options.image.invalidate);
+    if (!compiled.features_hash.empty() || options.image.trace) text += fmt::format(" invalidate={}", options.image.invalidate);
     if (options.mips) text += " mips";
     if (options.samples != "8") text += " samples=" + options.samples;
     if (options.image.trace)
@@ -151,9 +151,7 @@ Status add_bilevel(const Result<Silhouette>& silhouette, const CompileCommandOpt
     return {};
 }
 
-Status add_silmap(const Scene& scene, const CompileCommandOptions& options, const ProgressSink& progress,
-                  std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
-    auto built = compile_silhouette_map(scene, silmap_request(options, scene.extent), progress);
+Status add_silmap(Result<SilmapBuild> built, std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
     if (!built) return built.error();
     const std::vector<Diagnostic>& said = built.value().report.diagnostics;
     diagnostics.insert(diagnostics.end(), said.begin(), said.end());
@@ -168,7 +166,7 @@ Status add_fbt(Result<FbtBuild> build, Compiled& compiled) {
     return {};
 }
 
-/// An FBT of an image has as many texels as pixels unless told otherwise.
+/// FBTs and silhouette maps of an image have as many texels as pixels unless told otherwise.
 Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOptions& options,
                                         std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
@@ -191,6 +189,12 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
         const auto silhouette = silhouette_of(picture.image, *silhouette_rule(options.bilevel.silhouette));
         if (const Status s = add_bilevel(silhouette, options, progress.sink(), diagnostics, compiled); !s)
             return s.error();
+    }
+    if (makes(options, "silmap")) {
+        SilmapRequest request = silmap_request(options, picture.features.extent);
+        if (!options.size_given) request.size = {picture.image.width, picture.image.height};
+        auto built = compile_silhouette_map(picture, request, progress.sink());
+        if (const Status s = add_silmap(std::move(built), diagnostics, compiled); !s) return s.error();
     }
     return compiled;
 }
@@ -220,7 +224,8 @@ Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOp
             return s.error();
     }
     if (makes(options, "silmap")) {
-        if (const Status s = add_silmap(scene, options, progress.sink(), diagnostics, compiled); !s) return s.error();
+        auto built = compile_silhouette_map(scene, silmap_request(options, scene.extent), progress.sink());
+        if (const Status s = add_silmap(std::move(built), diagnostics, compiled); !s) return s.error();
     }
     return compiled;
 }
@@ -336,7 +341,6 @@ Status check_representations(const CompileCommandOptions& options) {
 Status check_inputs(const CompileCommandOptions& options) {
     if (const Status status = check_representations(options); !status) return status.error();
     const ImageOptions& image = options.image;
-    const bool fbt = makes(options, "fbt");
     if (makes(options, "bilevel") && options.size.automatic)
         return usage("--size auto chooses sizes for --repr fbt and silmap");
     if (options.samples == "rgb8" && makes(options, "fbt")) return usage("--samples rgb8 is for --repr silmap alone");
@@ -348,8 +352,8 @@ Status check_inputs(const CompileCommandOptions& options) {
     if (!options.inputs.empty()) return usage("--image goes alone: no other inputs");
     if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
     if (options.bilevel.silhouette.starts_with("id:")) return usage("--silhouette id:NAME is for drawings");
-    if (makes(options, "silmap")) return usage("--repr silmap takes drawings, not --image");
-    if (fbt && image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
+    const bool featured = makes(options, "fbt") || makes(options, "silmap");
+    if (featured && image.features.empty() && !image.trace) return usage("--image needs --features or --trace");
     return {};
 }
 
@@ -440,11 +444,11 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
     add_image_options(*app, options->image);
-    options->only_for = {
-        {add_bilevel_options(*app, options->bilevel), {"bilevel"}},
-        {add_silmap_options(*app, options->silmap), {"silmap"}},
-        {{samples}, {"fbt", "silmap"}},
-        {{app->get_option("--features"), app->get_option("--trace"), app->get_option("--invalidate")}, {"fbt"}}};
+    options->only_for = {{add_bilevel_options(*app, options->bilevel), {"bilevel"}},
+                         {add_silmap_options(*app, options->silmap), {"silmap"}},
+                         {{samples}, {"fbt", "silmap"}},
+                         {{app->get_option("--features"), app->get_option("--trace"), app->get_option("--invalidate")},
+                          {"fbt", "silmap"}}};
     add_scene_options(*app, options->scene);
     app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
         ->take_all()

@@ -12,18 +12,28 @@ fetex::SilmapSampleFormat sample_format(const std::string& name) {
     return name == "rgb8" ? fetex::SilmapSampleFormat::Rgb8 : fetex::SilmapSampleFormat::Rgba8;
 }
 
-} // namespace
-
-Result<SilmapBuild> compile_silhouette_map(const Scene& scene, const SilmapRequest& request,
-                                           const ProgressSink& progress) {
+template <class Input>
+Result<SilmapBuild> compile_input(const Input& input, const SilmapRequest& request, const ProgressSink& progress) {
     SilmapOptions options;
     options.size = request.size;
     options.cell_format =
         request.how.cell_bits == 16 ? fetex::SilmapCellFormat::Bits16 : fetex::SilmapCellFormat::Bits8;
     options.sample_format = sample_format(request.samples);
     options.mips = request.mips, options.threads = request.threads, options.skip = request.skip;
-    if (!request.automatic && request.max_bytes == 0) return compile_silmap(scene, options, progress);
-    return compile_silmap_at_chosen_size(scene, options, request.max_bytes, request.how.max_wrong_ppm / 1e6, progress);
+    if (!request.automatic && request.max_bytes == 0) return compile_silmap(input, options, progress);
+    return compile_silmap_at_chosen_size(input, options, request.max_bytes, request.how.max_wrong_ppm / 1e6, progress);
+}
+
+} // namespace
+
+Result<SilmapBuild> compile_silhouette_map(const Scene& scene, const SilmapRequest& request,
+                                           const ProgressSink& progress) {
+    return compile_input(scene, request, progress);
+}
+
+Result<SilmapBuild> compile_silhouette_map(const FeaturedImage& picture, const SilmapRequest& request,
+                                           const ProgressSink& progress) {
+    return compile_input(picture, request, progress);
 }
 
 std::string options_text(const SilmapRequest& request) {

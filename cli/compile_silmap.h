@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// `fetexc compile --repr silmap`: from a drawing to a silhouette-map texture.
+/// `fetexc compile --repr silmap`: from a drawing, or an image with features, to a silhouette-map texture.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct SilmapCommandOptions {
     double max_wrong_ppm = 0;    ///< with --size auto; 0: the builder's own
 };
 
-/// What is to be made of a drawing.
+/// What is to be made of a drawing or an image.
 struct SilmapRequest {
     SilmapCommandOptions how;
     GridSize size; ///< unless the size is chosen
@@ -31,6 +31,8 @@ struct SilmapRequest {
 
 /// Errors: those of compile_silmap and compile_silmap_at_chosen_size.
 Result<SilmapBuild> compile_silhouette_map(const Scene& scene, const SilmapRequest& request,
+                                           const ProgressSink& progress);
+Result<SilmapBuild> compile_silhouette_map(const FeaturedImage& picture, const SilmapRequest& request,
                                            const ProgressSink& progress);
 
 /// For the file's metadata.

@@ -61,9 +61,9 @@ class PointFit {
 
     struct Trial {
         SilmapPoint point;
-        std::array<double, 4> exit{}, right{};                       ///< own, by link
+        std::array<double, 4> exit{}, right{};                     ///< own, by link
         std::array<double, 4> neighbour_exit{}, neighbour_right{}; ///< of the opposite link of the neighbour there
-        double gain = 0;                                             ///< own and neighbours', square cells
+        double gain = 0;                                           ///< own and neighbours', square cells
         std::int64_t x = -1, y = -1;
     };
 

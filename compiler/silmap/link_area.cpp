@@ -51,10 +51,14 @@ double integral(const CellTruth& truth, const SilmapPoint& from, const SilmapPoi
 
 double ShownCell::exit_of(const SilmapPoint& point, std::uint32_t link, const SilmapPoint& across) {
     switch (link) {
-    case fetex::kSilmapWest: return point.y + (across.y - point.y) * (point.x / (point.x - across.x));
-    case fetex::kSilmapEast: return point.y + (across.y - point.y) * ((1 - point.x) / (across.x - point.x));
-    case fetex::kSilmapNorth: return point.x + (across.x - point.x) * (point.y / (point.y - across.y));
-    default: return point.x + (across.x - point.x) * ((1 - point.y) / (across.y - point.y));
+    case fetex::kSilmapWest:
+        return point.y + (across.y - point.y) * (point.x / (point.x - across.x));
+    case fetex::kSilmapEast:
+        return point.y + (across.y - point.y) * ((1 - point.x) / (across.x - point.x));
+    case fetex::kSilmapNorth:
+        return point.x + (across.x - point.x) * (point.y / (point.y - across.y));
+    default:
+        return point.x + (across.x - point.x) * ((1 - point.y) / (across.y - point.y));
     }
 }
 
@@ -70,9 +74,12 @@ double link_area(const CellTruth& truth, const SilmapPoint& point, std::uint32_t
         return corners[plus] == corners[minus] ? 0 : integral(truth, from, to, corners[plus], corners[minus]);
     };
     switch (link) {
-    case kSilmapWest: return between({0, exit}, point, kSilmapSW, kSilmapNW);
-    case kSilmapNorth: return between({exit, 0}, point, kSilmapNW, kSilmapNE);
-    case kSilmapSouth: return between(point, {exit, 1}, kSilmapSW, kSilmapSE);
+    case kSilmapWest:
+        return between({0, exit}, point, kSilmapSW, kSilmapNW);
+    case kSilmapNorth:
+        return between({exit, 0}, point, kSilmapNW, kSilmapNE);
+    case kSilmapSouth:
+        return between(point, {exit, 1}, kSilmapSW, kSilmapSE);
     default: // and what lies above it, along the whole level
         return between({1, exit}, point, kSilmapNE, kSilmapSE) + between({1, 0}, {1, exit}, kSilmapNE, kSilmapSE);
     }

@@ -2,8 +2,8 @@
 /// The area of a cell that shows what the drawing has there, link by link, exactly.
 ///
 /// Along a level let C_r(x) be the length left of x that has result r. What the cell shows right is the length of the
-/// last corner's result on the whole level, and for each link that crosses it C_a(x) − C_b(x), a being shown left of the
-/// link and b right of it. So every link counts by itself, and moving a point changes one link of each neighbour.
+/// last corner's result on the whole level, and for each link that crosses it C_a(x) − C_b(x), a being shown left of
+/// the link and b right of it. So every link counts by itself, and moving a point changes one link of each neighbour.
 #pragma once
 
 #include <array>

@@ -2,6 +2,7 @@
 #include "compiler/silmap/silmap_builder.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "compiler/diagnostics.h"
 #include "compiler/error_budget.h"
@@ -64,39 +65,89 @@ void count_cells(const SilmapCells& cells, SilmapStats& stats) {
     }
 }
 
+Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options, SilmapReport& report) {
+    const Result<GridSize> size = texels_for(scene.extent, options.size);
+    if (!size) return size.error();
+    report.scene = scene.stats;
+    const Grid grid = make_cell_grid(scene.extent, size.value().width, size.value().height);
+    return PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
+}
+
+/// What chords may miss edges by, in cells.
+double chord_of(const SilmapOptions& options) {
+    return budget::kSilmapChord / fetex::silmap_steps(options.cell_format);
+}
+
+/// Everything but colours.
+void fit_cells(SilmapCells& cells, const SilmapOptions& options, SilmapBuild& build) {
+    const double area = static_cast<double>(cells.width) * cells.height;
+    place_seeds(cells, options.cell_format, options.threads);
+    build.stats.wrong_area_seed = wrong_area_of(cells) / area;
+    const FitCounts counts = fit_points(cells, options.cell_format, options.threads);
+    build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
+    build.stats.wrong_area = wrong_area_of(cells) / area;
+    count_cells(cells, build.stats);
+    fetex::SilmapTexture& t = build.texture;
+    t.width = cells.width, t.height = cells.height;
+    t.cell_format = options.cell_format, t.sample_format = options.sample_format;
+    t.cells = packed_cells(cells, options.cell_format);
+}
+
+void finish(const SilmapOptions& options, SilmapBuild& build) {
+    if (options.mips) build.texture.mips = fetex::silmap_make_mips(build.texture);
+    build.stats.gpu_bytes = fetex::silmap_gpu_bytes(build.texture);
+}
+
+void append_packed(const fetex::FbtColor& c, const SilmapOptions& options, std::vector<std::uint32_t>& out) {
+    const fetex::FbtSampleFormat format = silmap_fbt_format(options.sample_format);
+    const bool opaque = options.sample_format == SilmapSampleFormat::Rgb8;
+    const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, opaque ? 1 : c.a}, format);
+    out.insert(out.end(), packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(fbt_sample_words(format)));
+}
+
 } // namespace
 
 Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& options, const ProgressSink& progress) {
-    const Result<GridSize> size = texels_for(scene.extent, options.size);
-    if (!size) return size.error();
     SilmapBuild build;
-    build.report.scene = scene.stats;
     if (progress) progress("planar map", 0);
-    const Grid grid = make_cell_grid(scene.extent, size.value().width, size.value().height);
-    const Result<PlanarMap> map = PlanarMap::build(scene, grid, options.threads, build.report.planar, options.skip);
+    const Result<PlanarMap> map = map_of_cells(scene, options, build.report);
     if (!map) return map.error();
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    const double chord = budget::kSilmapChord / fetex::silmap_steps(options.cell_format);
-    std::optional<SilmapCells> cells =
-        read_cells(map.value(), scene, compositor, chord, options.threads, options.skip, build.report.planar);
+    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, chord_of(options), options.threads,
+                                                  options.skip, build.report.planar);
     if (!cells) return inconsistent();
-    const double area = static_cast<double>(cells->width) * cells->height;
-    place_seeds(*cells, options.cell_format, options.threads);
-    build.stats.wrong_area_seed = wrong_area_of(*cells) / area;
     if (progress) progress("silmap", 0.5);
-    const FitCounts counts = fit_points(*cells, options.cell_format, options.threads);
-    build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
-    build.stats.wrong_area = wrong_area_of(*cells) / area;
-    count_cells(*cells, build.stats);
-    fetex::SilmapTexture& t = build.texture;
-    t.width = cells->width, t.height = cells->height;
-    t.cell_format = options.cell_format, t.sample_format = options.sample_format;
-    t.cells = packed_cells(*cells, options.cell_format);
-    t.colors = colors_of(scene, compositor, *cells, options);
-    if (options.mips) t.mips = fetex::silmap_make_mips(t);
-    build.stats.gpu_bytes = fetex::silmap_gpu_bytes(t);
+    fit_cells(*cells, options, build);
+    build.texture.colors = colors_of(scene, compositor, *cells, options);
+    finish(options, build);
+    return build;
+}
+
+Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOptions& options,
+                                   const ProgressSink& progress) {
+    SilmapBuild build;
+    CompileOptions how;
+    how.size = options.size, how.threads = options.threads, how.skip = options.skip;
+    how.sample_format = silmap_fbt_format(options.sample_format);
+    const Result<FbtBuild> fbt = compile_fbt(picture, how, progress);
+    if (!fbt) return fbt.error();
+    if (progress) progress("silmap", 0);
+    const Result<PlanarMap> map = map_of_cells(picture.features, options, build.report);
+    if (!map) return map.error();
+    std::optional<SilmapCells> cells = read_feature_cells(map.value(), picture.features, chord_of(options),
+                                                          options.threads, options.skip, build.report.planar);
+    if (!cells) return inconsistent();
+    fit_cells(*cells, options, build);
+    for (std::uint32_t j = 0; j < cells->height; ++j) {
+        for (std::uint32_t i = 0; i < cells->width; ++i)
+            append_packed(fetex::fbt_sample_local(fbt.value().texture, i, j, 0.5, 0.5), options, build.texture.colors);
+    }
+    finish(options, build);
+    // What it has to say of the image; parts that its texels lose these may have.
+    std::ranges::copy_if(fbt.value().report.diagnostics, std::back_inserter(build.report.diagnostics),
+                         [](const Diagnostic& d) { return d.code < diag::kFeaturesFloating; });
     return build;
 }
 

@@ -51,6 +51,12 @@ struct SilmapBuild {
 /// shows another region than the drawing has. Errors: kSizeOutOfRange; those of PlanarMap::build.
 Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& options, const ProgressSink& progress = {});
 
+/// Of an image with features over it (the paper's Fig. 6): each texel has the colour that the image's FBT of as many
+/// texels has in its middle, filtered without crossing a feature; cells are fitted to the features. Errors: those of
+/// compile_fbt too.
+Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOptions& options,
+                                   const ProgressSink& progress = {});
+
 /// At a size of its own choice; options.size is ignored.
 /// - max_wrong_area > 0 (part of the canvas): the smallest size, to 1/16, that has no more wrong area and fits in
 ///   max_bytes (0: no limit). Error kSilmapErrorUnmet: none does.
@@ -58,6 +64,11 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
 /// - neither: up to kSilmapChosenError of wrong area, or the best that a size of up to 1024 texels does.
 /// Errors of compile_silmap as well.
 Result<SilmapBuild> compile_silmap_at_chosen_size(const Scene& scene, const SilmapOptions& options,
+                                                  std::uint64_t max_bytes, double max_wrong_area,
+                                                  const ProgressSink& progress = {});
+
+/// The same of an image, at most as many texels as pixels.
+Result<SilmapBuild> compile_silmap_at_chosen_size(const FeaturedImage& picture, const SilmapOptions& options,
                                                   std::uint64_t max_bytes, double max_wrong_area,
                                                   const ProgressSink& progress = {});
 

@@ -21,9 +21,12 @@ constexpr std::array<SilmapPoint, 4> kToNeighbour{{{-1, 0}, {0, -1}, {1, 0}, {0,
 
 class RowReader {
   public:
+    /// faces: of features; then results mean nothing.
     RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord, const SkipRules& skip,
-              SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), out_(out) {}
+              FaceRow* faces, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), faces_(faces), out_(out) {
+        if (faces_ != nullptr) mapper_.tell_faces_apart();
+    }
 
     /// False: the map contradicts itself.
     bool read(std::uint32_t j, std::vector<SilmapCellData>& cells) {
@@ -35,14 +38,11 @@ class RowReader {
             ++(empty                              ? stats_.texels_empty
                : map_.sub_edges(i, j).size() == 1 ? stats_.texels_simple
                                                   : stats_.texels_arranged);
-            if (i == 0)
-                out_.left[j] = mapper_.lookup()(corner);
-            else if (j == 0)
-                out_.top[i] = mapper_.lookup()(corner);
-            else
-                out_.results[(j - 1) * std::size_t{out_.width} + i - 1] = mapper_.lookup()(corner);
+            if (faces_ == nullptr) note_result(i, j, mapper_.lookup()(corner));
+            if (faces_ != nullptr && empty) faces_->add_empty();
             if (empty) return;
             good = mapper_.analyse(i, j, corner, cell_);
+            if (good && faces_ != nullptr) faces_->add(cell_);
             if (good) add(i, j, cells);
         });
         return good;
@@ -50,6 +50,15 @@ class RowReader {
     [[nodiscard]] const PlanarStats& stats() const { return stats_; }
 
   private:
+    void note_result(std::uint32_t i, std::uint32_t j, ResultId result) {
+        if (i == 0)
+            out_.left[j] = result;
+        else if (j == 0)
+            out_.top[i] = result;
+        else
+            out_.results[(j - 1) * std::size_t{out_.width} + i - 1] = result;
+    }
+
     void add(std::uint32_t i, std::uint32_t j, std::vector<SilmapCellData>& cells) {
         reader_.read(cell_, drawing_);
         if (drawing_.chords.empty()) return;
@@ -73,6 +82,7 @@ class RowReader {
     PlanarStats stats_;
     TexelMapper mapper_;
     CellReader reader_;
+    FaceRow* faces_;
     SilmapCells& out_;
     TexelMap cell_;
     CellDrawing drawing_;
@@ -119,17 +129,21 @@ const SilmapCellData* find(const SilmapCells& cells, std::uint32_t i, std::uint3
     return it != end && it->i == i ? &*it : nullptr;
 }
 
+/// Set of links between corners of different results.
+std::uint32_t boundaries_between(const std::array<ResultId, 4>& r) {
+    using namespace fetex;
+    const auto link = [](std::uint32_t k, bool apart) { return apart ? 1u << k : 0u; };
+    return link(kSilmapWest, r[kSilmapNW] != r[kSilmapSW]) | link(kSilmapNorth, r[kSilmapNW] != r[kSilmapNE]) |
+           link(kSilmapEast, r[kSilmapNE] != r[kSilmapSE]) | link(kSilmapSouth, r[kSilmapSW] != r[kSilmapSE]);
+}
+
 void link(SilmapCells& cells, SilmapCellData& c) {
     using namespace fetex;
-    c.shown.corners = corners_of(cells, c.i, c.j);
-    const std::array<ResultId, 4>& r = c.shown.corners;
-    const bool part[4] = {r[kSilmapNW] != r[kSilmapSW], r[kSilmapNW] != r[kSilmapNE], r[kSilmapNE] != r[kSilmapSE],
-                          r[kSilmapSW] != r[kSilmapSE]};
-    c.boundaries = 0;
+    c.shown.corners = cells.of_features ? c.faces : corners_of(cells, c.i, c.j);
+    c.boundaries = cells.of_features ? c.apart : boundaries_between(c.shown.corners);
     for (std::uint32_t k = 0; k < 4; ++k) {
         c.neighbours[k] = kNone;
-        if (!part[k]) continue;
-        c.boundaries |= 1u << k;
+        if ((c.boundaries >> k & 1) == 0) continue;
         const std::int64_t i = std::int64_t{c.i} + (k == kSilmapEast) - (k == kSilmapWest),
                            j = std::int64_t{c.j} + (k == kSilmapSouth) - (k == kSilmapNorth);
         const bool beyond = i < 0 || j < 0 || i > cells.width || j > cells.height;
@@ -195,8 +209,12 @@ void link_cells(SilmapCells& cells, unsigned threads) {
     });
 }
 
-std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
-                                      unsigned threads, const SkipRules& skip, PlanarStats& stats) {
+namespace {
+
+/// faces: of features, a row each; or none.
+std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
+                                    unsigned threads, const SkipRules& skip, std::span<FaceRow> faces,
+                                    PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
     out.results.resize(std::size_t{out.width} * out.height);
@@ -207,7 +225,7 @@ std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, 
     std::vector<PlanarStats> row_stats(rows);
     std::vector<char> good(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, chord, skip, out);
+        RowReader reader(map, scene, compositor, chord, skip, faces.empty() ? nullptr : &faces[j], out);
         good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
         row_stats[j] = reader.stats();
     });
@@ -222,6 +240,26 @@ std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, 
         out.cells.insert(out.cells.end(), row.begin(), row.end());
     }
     out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
+    return out;
+}
+
+} // namespace
+
+std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
+                                      unsigned threads, const SkipRules& skip, PlanarStats& stats) {
+    return read_all(map, scene, compositor, chord, threads, skip, {}, stats);
+}
+
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, double chord,
+                                              unsigned threads, const SkipRules& skip, PlanarStats& stats) {
+    Compositor unasked(features, skip);
+    std::vector<FaceRow> faces;
+    for (std::uint32_t j = 0; j < map.grid().height; ++j)
+        faces.emplace_back(map, j);
+    auto out = read_all(map, features, unasked, chord, threads, skip, faces, stats);
+    if (!out) return out;
+    out->of_features = true;
+    if (!find_boundaries(*out, map, faces, threads)) return std::nullopt;
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include "compiler/compile.h"
 #include "compiler/parallel.h"
 #include "compiler/planar/planar_map.h"
+#include "compiler/silmap/feature_cells.h"
 #include "compiler/silmap/link_area.h"
 
 namespace fetexc {
@@ -22,7 +23,7 @@ struct SilmapCellData {
     /// By link, where it is a boundary: index of the cell, or kOwnPoint.
     std::array<std::uint32_t, 4> neighbours{kNone, kNone, kNone, kNone};
     ShownCell shown;
-    std::uint32_t x = 0, y = 0; ///< the point in steps
+    std::uint32_t x = 0, y = 0;    ///< the point in steps
     std::array<double, 4> right{}; ///< of `shown`: link_area
     double wrong = 0;              ///< of `shown`: of the cell's part in the canvas, square cells
     std::uint32_t first_slab = 0, slabs = 0;
@@ -30,10 +31,14 @@ struct SilmapCellData {
     std::uint32_t corners = 0;      ///< of the drawing, inside
     fetex::SilmapPoint seed{0.5, 0.5};
     std::array<float, 4> crossing{-1, -1, -1, -1}; ///< of an edge on a side that has one only, else -1
+    /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
+    std::array<ResultId, 4> faces{};
+    std::uint32_t apart = 0;
 };
 
 struct SilmapCells {
     std::uint32_t width = 0, height = 0; ///< texels
+    bool of_features = false;            ///< results are those of faces, a cell's own; none of texels
     std::vector<ResultId> results;       ///< width·height: in the middles of texels
     std::vector<ResultId> left, top;     ///< height + 1 and width + 1: in the corner of the border cells
     std::vector<SilmapCellData> cells;   ///< with edges or boundaries, row by row
@@ -55,6 +60,10 @@ struct SilmapCells {
 /// map: of make_cell_grid. chord: cells. Points are where an edge turns or meets others, else on an edge.
 std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
                                       unsigned threads, const SkipRules& skip, PlanarStats& stats);
+
+/// The same of features over an image (feature_scene): each face of a cell is a result of its own.
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, double chord,
+                                              unsigned threads, const SkipRules& skip, PlanarStats& stats);
 
 /// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
 void link_cells(SilmapCells& cells, unsigned threads);

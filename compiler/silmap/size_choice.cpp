@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -8,6 +9,7 @@
 
 #include "compiler/diagnostics.h"
 #include "compiler/silmap/silmap_builder.h"
+#include "formats/fbt_mip.h"
 
 namespace fetexc {
 namespace {
@@ -29,21 +31,21 @@ std::uint64_t bytes_of(const SilmapOptions& options) {
     default:
         bytes += 8 * texels;
     }
-    std::uint32_t w = options.size.width, h = options.size.height;
-    for (bool first = true; options.mips && (first || w > 1 || h > 1); first = false) {
-        w = std::max(1u, w / 2), h = std::max(1u, h / 2);
-        bytes += std::uint64_t{4} * w * h;
-    }
+    if (options.mips) bytes += 4 * fetex::fbt_mip_samples(options.size.width, options.size.height);
     return bytes;
 }
 
+using BuildAtSize = std::function<Result<SilmapBuild>(const SilmapOptions&)>;
+
 class SizeChoice {
   public:
-    SizeChoice(const Scene& scene, const SilmapOptions& options, std::uint64_t max_bytes, const ProgressSink& progress)
-        : scene_(scene), options_(options), max_bytes_(max_bytes), progress_(progress) {}
+    /// largest: texels on the longer side.
+    SizeChoice(const Extent& extent, const SilmapOptions& options, std::uint64_t max_bytes, std::uint32_t largest,
+               BuildAtSize build)
+        : extent_(extent), options_(options), max_bytes_(max_bytes), largest_(largest), build_(std::move(build)) {}
 
     Result<SilmapBuild> largest() {
-        std::uint32_t good = 0, least = kMost + 1; // fits; doesn't
+        std::uint32_t good = 0, least = largest_ + 1; // fits; doesn't
         while (good + 1 < least) {
             const std::uint32_t middle = good + (least - good) / 2;
             (fits(middle) ? good : least) = middle;
@@ -54,11 +56,12 @@ class SizeChoice {
                              std::to_string(bytes_of(at(1))),
                          "--max-bytes"};
         }
-        return compile_silmap(scene_, at(good), progress_);
+        return build_(at(good));
     }
 
     /// The best if none is good enough and `required` is false.
     Result<SilmapBuild> smallest(double max_wrong, std::uint32_t most, bool required) {
+        most = std::min(most, largest_);
         std::optional<SilmapBuild> found;
         std::uint32_t bad = 0, good = 0;
         for (std::uint32_t size = kFewest; size <= most && good == 0 && !error_; size *= 2) {
@@ -90,7 +93,7 @@ class SizeChoice {
 
     [[nodiscard]] SilmapOptions at(std::uint32_t longer_side) const {
         SilmapOptions o = options_;
-        o.size = grid_for(scene_.extent, longer_side);
+        o.size = grid_for(extent_, longer_side);
         return o;
     }
     [[nodiscard]] bool fits(std::uint32_t size) const { return max_bytes_ == 0 || bytes_of(at(size)) <= max_bytes_; }
@@ -99,7 +102,7 @@ class SizeChoice {
     std::optional<SilmapBuild> build(std::uint32_t size) {
         if (!fits(size)) return std::nullopt;
         try {
-            Result<SilmapBuild> made = compile_silmap(scene_, at(size), progress_);
+            Result<SilmapBuild> made = build_(at(size));
             if (made) return std::move(made).value();
             error_ = made.error();
         } catch (const std::bad_alloc&) {
@@ -117,27 +120,42 @@ class SizeChoice {
         std::ostringstream text;
         text << "no size has at most " << max_wrong * kMillion << " ppm of wrong area; the least was "
              << least_wrong_ * kMillion << " ppm";
-        return {ErrorClass::Unsupported, diag::kSilmapErrorUnmet, text.str(), "--max-error"};
+        return {ErrorClass::Unsupported, diag::kSilmapErrorUnmet, text.str(), "--max-wrong"};
     }
 
     static constexpr double kMillion = 1e6;
-    const Scene& scene_;
+    Extent extent_;
     const SilmapOptions& options_;
     std::uint64_t max_bytes_;
-    const ProgressSink& progress_;
+    std::uint32_t largest_;
+    BuildAtSize build_;
     double least_wrong_ = INFINITY;
     std::optional<Error> error_;
 };
+
+Result<SilmapBuild> choose(SizeChoice& choice, std::uint64_t max_bytes, double max_wrong_area) {
+    if (max_wrong_area > 0) return choice.smallest(max_wrong_area, kMost, true);
+    if (max_bytes != 0) return choice.largest();
+    return choice.smallest(kSilmapChosenError, kMostUnasked, false);
+}
 
 } // namespace
 
 Result<SilmapBuild> compile_silmap_at_chosen_size(const Scene& scene, const SilmapOptions& options,
                                                   std::uint64_t max_bytes, double max_wrong_area,
                                                   const ProgressSink& progress) {
-    SizeChoice choice(scene, options, max_bytes, progress);
-    if (max_wrong_area > 0) return choice.smallest(max_wrong_area, kMost, true);
-    if (max_bytes != 0) return choice.largest();
-    return choice.smallest(kSilmapChosenError, kMostUnasked, false);
+    SizeChoice choice(scene.extent, options, max_bytes, kMost,
+                      [&](const SilmapOptions& how) { return compile_silmap(scene, how, progress); });
+    return choose(choice, max_bytes, max_wrong_area);
+}
+
+Result<SilmapBuild> compile_silmap_at_chosen_size(const FeaturedImage& picture, const SilmapOptions& options,
+                                                  std::uint64_t max_bytes, double max_wrong_area,
+                                                  const ProgressSink& progress) {
+    const std::uint32_t pixels = std::max(picture.image.width, picture.image.height);
+    SizeChoice choice(picture.features.extent, options, max_bytes, pixels,
+                      [&](const SilmapOptions& how) { return compile_silmap(picture, how, progress); });
+    return choose(choice, max_bytes, max_wrong_area);
 }
 
 } // namespace fetexc
