@@ -38,8 +38,8 @@ class FaceRow {
 struct SilmapCells;
 
 /// Sets faces and apart of the cells (SilmapCellData): two corners on a side are apart if no way through the two cells
-/// beside it leads from one to the other without crossing a feature: one that ends in either of them, or passes both
-/// twice, separates nothing. False: the map contradicts itself.
+/// beside it leads from one to the other without crossing a feature: one that ends in either of them separates nothing.
+/// False: the map contradicts itself.
 bool find_boundaries(SilmapCells& cells, const PlanarMap& map, std::vector<FaceRow>& rows, unsigned threads);
 
 } // namespace fetexc
