@@ -292,7 +292,7 @@ std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& 
         if (!busy && pairs < sweeps.pairs) ++pairs, busy = fit.sweep_pairs();
         trace.push_back(fit.wrong_area());
     }
-    if (sweeps.pairs > 0) {
+    if (sweeps.settle) {
         fit.settle();
         trace.push_back(fit.wrong_area());
     }

@@ -20,13 +20,14 @@ std::uint8_t moved(std::uint8_t v, int by, MidGreys greys);
 struct ByteSweeps {
     int most = 60; ///< sweeps in all
     int pairs = 0; ///< of them at most so many over pairs
+    bool settle = false;
 };
 
 /// Sweeps over the texels of the cells, in order: a byte goes up or down, by steps that grow while they help and shrink
 /// while they don't, until no single step of 1 makes the wrong area less. Then sweeps over pairs of bytes, of
-/// neighbours or of two channels of a texel, by 1 each; after such a sweep single ones again, and in the end every byte
-/// goes as far from one half as costs nothing. What nothing around has changed since it was last tried isn't tried
-/// again. The trace gets the wrong area after each sweep. Returns the bytes and pairs tried.
+/// neighbours or of two channels of a texel, by 1 each; after such a sweep single ones again, and in the end, if they
+/// are to settle, every byte goes as far from one half as costs nothing. What nothing around has changed since it was
+/// last tried isn't tried again. The trace gets the wrong area after each sweep. Returns the bytes and pairs tried.
 std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& values, MidGreys greys,
                         ByteSweeps sweeps, FitTrace& trace);
 
