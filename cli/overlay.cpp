@@ -124,11 +124,17 @@ class SilmapOverlay {
         const fetex::SilmapShape shape = fetex::silmap_shape(texture_, i, j);
         for (const std::uint32_t link : {fetex::kSilmapEast, fetex::kSilmapSouth}) {
             const bool boundary = (shape.boundaries >> link & 1) != 0;
-            if (boundary != boundaries || (!boundary && shape.boundaries == 0)) continue;
+            if (boundary != boundaries || (!boundary && shape.boundaries == 0 && !has_boundaries(i, j, link))) continue;
             const Pixel from = at(i, j, shape.point), to = at(i, j, shape.across[link]);
             if (boundary) pen_.line(from, to, 2 * thickness(), kHalo);
             pen_.line(from, to, boundary ? thickness() : 1, boundary ? kBoundary : kLink);
         }
+    }
+
+    /// The neighbour.
+    [[nodiscard]] bool has_boundaries(std::uint32_t i, std::uint32_t j, std::uint32_t link) const {
+        const bool east = link == fetex::kSilmapEast;
+        return fetex::silmap_shape(texture_, east ? i + 1 : i, east ? j : j + 1).boundaries != 0;
     }
 
     void draw_point(std::uint32_t i, std::uint32_t j) {
