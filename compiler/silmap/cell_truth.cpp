@@ -93,7 +93,8 @@ void TruthBuilder::add(const CellDrawing& drawing, const fetex::SilmapBox& box, 
 }
 
 void TruthBuilder::add_plain(ResultId result, const fetex::SilmapBox& box, TruthSlabs& out) {
-    out.slabs.push_back({box.y0, box.y1, 1 / (box.y1 - box.y0), result, static_cast<std::uint32_t>(out.lines.size()), 0});
+    out.slabs.push_back(
+        {box.y0, box.y1, 1 / (box.y1 - box.y0), result, static_cast<std::uint32_t>(out.lines.size()), 0});
 }
 
 } // namespace fetexc

@@ -2,8 +2,8 @@
 /// The area of a cell that shows what the drawing has there, link by link, exactly.
 ///
 /// Along a level let C_r(x) be the length left of x that has result r. What the cell shows right is the length of the
-/// last corner's result on the whole level, and for each link that crosses it C_a(x) − C_b(x), a being shown left of the
-/// link and b right of it. So every link counts by itself, and moving a point changes one link of each neighbour.
+/// last corner's result on the whole level, and for each link that crosses it C_a(x) − C_b(x), a being shown left of
+/// the link and b right of it. So every link counts by itself, and moving a point changes one link of each neighbour.
 #pragma once
 
 #include <array>
@@ -37,5 +37,8 @@ double area_of(const CellTruth& truth, ResultId result);
 /// result the four links give all of it.
 double link_area(const CellTruth& truth, const fetex::SilmapPoint& point, std::uint32_t link, double exit,
                  const std::array<ResultId, 4>& corners);
+
+/// The result at a point of the cell.
+ResultId result_at(const CellTruth& truth, double x, double y);
 
 } // namespace fetexc

@@ -78,12 +78,11 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    const double chord = budget::kSilmapChord / fetex::silmap_steps(options.cell_format);
-    std::optional<SilmapCells> cells =
-        read_cells(map.value(), scene, compositor, chord, options.threads, options.skip, build.report.planar);
+    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
+                                                  options.skip, build.report.planar);
     if (!cells) return inconsistent();
     const double area = static_cast<double>(cells->width) * cells->height;
-    place_seeds(*cells, options.cell_format, options.threads);
+    link_cells(*cells, options.threads);
     build.stats.wrong_area_seed = wrong_area_of(*cells) / area;
     if (progress) progress("silmap", 0.5);
     const FitCounts counts = fit_points(*cells, options.cell_format, options.threads);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "compiler/error_budget.h"
 #include "compiler/silmap/point_seed.h"
 
 namespace fetexc {
@@ -16,14 +17,17 @@ std::array<std::uint32_t, 2> texels_beside(std::uint32_t cell, std::uint32_t tex
     return {cell > 0 ? cell - 1 : 0, std::min(cell, texels - 1)};
 }
 
-/// From a cell to its neighbour.
-constexpr std::array<SilmapPoint, 4> kToNeighbour{{{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
+void place(SilmapCellData& c, std::uint32_t x, std::uint32_t y, fetex::SilmapCellFormat format) {
+    c.x = x, c.y = y;
+    c.shown.point = {fetex::silmap_position(format, x), fetex::silmap_position(format, y)};
+}
 
 class RowReader {
   public:
-    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord, const SkipRules& skip,
-              SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), out_(out) {}
+    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
+              const SkipRules& skip, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip),
+          reader_(map, budget::kSilmapChord / fetex::silmap_steps(format)), format_(format), out_(out) {}
 
     /// False: the map contradicts itself.
     bool read(std::uint32_t j, std::vector<SilmapCellData>& cells) {
@@ -65,7 +69,8 @@ class RowReader {
             c.edges_across |= static_cast<std::uint32_t>(std::min<std::size_t>(crossings.size(), 255)) << 8 * link;
             if (crossings.size() == 1) c.crossing[link] = static_cast<float>(crossings[0]);
         }
-        c.seed = seed_of(drawing_);
+        const CellSteps seed = seed_of(drawing_, format_);
+        place(c, seed.x, seed.y, format_);
         cells.push_back(c);
     }
 
@@ -73,6 +78,7 @@ class RowReader {
     PlanarStats stats_;
     TexelMapper mapper_;
     CellReader reader_;
+    fetex::SilmapCellFormat format_;
     SilmapCells& out_;
     TexelMap cell_;
     CellDrawing drawing_;
@@ -95,7 +101,8 @@ bool one_result(const std::array<ResultId, 4>& c) { return c[0] == c[1] && c[0] 
 
 /// Cells without edges whose corners differ: an edge runs along a side.
 std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j,
-                                       const std::vector<SilmapCellData>& edged, TruthSlabs& truth) {
+                                       const std::vector<SilmapCellData>& edged, fetex::SilmapCellFormat format,
+                                       TruthSlabs& truth) {
     std::vector<SilmapCellData> out;
     auto next = edged.begin();
     for (std::uint32_t i = 0; i <= cells.width; ++i) {
@@ -106,6 +113,7 @@ std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j
         if (one_result(corners_of(cells, i, j))) continue;
         SilmapCellData c;
         c.i = i, c.j = j;
+        place(c, fetex::silmap_step(format, 0.5), fetex::silmap_step(format, 0.5), format);
         c.first_slab = static_cast<std::uint32_t>(truth.slabs.size()), c.slabs = 1;
         TruthBuilder::add_plain(cells.inside(i, j), cells.box(c), truth);
         out.push_back(c);
@@ -195,8 +203,9 @@ void link_cells(SilmapCells& cells, unsigned threads) {
     });
 }
 
-std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
-                                      unsigned threads, const SkipRules& skip, PlanarStats& stats) {
+std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
+                                      fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                      PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
     out.results.resize(std::size_t{out.width} * out.height);
@@ -207,7 +216,7 @@ std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, 
     std::vector<PlanarStats> row_stats(rows);
     std::vector<char> good(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, chord, skip, out);
+        RowReader reader(map, scene, compositor, format, skip, out);
         good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
         row_stats[j] = reader.stats();
     });
@@ -215,7 +224,7 @@ std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, 
     for (const PlanarStats& s : row_stats)
         add(stats, s);
     parallel_for(rows, threads, [&](std::size_t j) {
-        edged[j] = with_plain(out, static_cast<std::uint32_t>(j), edged[j], out.truth[j]);
+        edged[j] = with_plain(out, static_cast<std::uint32_t>(j), edged[j], format, out.truth[j]);
     });
     for (const std::vector<SilmapCellData>& row : edged) {
         out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
