@@ -11,9 +11,6 @@ struct FitCounts {
     std::uint64_t rounds = 0, positions = 0;
 };
 
-/// To the steps of the format, nearest to the seeds; links and wrong areas follow.
-void place_seeds(SilmapCells& cells, fetex::SilmapCellFormat format, unsigned threads);
-
 /// Moves points from step to step while that lowers the wrong area of the cell and its neighbours. Same result for any
 /// thread count.
 FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, unsigned threads);

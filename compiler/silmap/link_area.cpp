@@ -11,9 +11,9 @@ using fetex::SilmapPoint;
 
 /// Mean of max(0, f) while f goes evenly from a to b.
 double mean_above(double a, double b) {
-    const double low = std::min(a, b), high = std::max(a, b);
-    if (low >= 0) return (low + high) / 2;
-    return high > 0 ? high * high / (2 * (high - low)) : 0;
+    const double pa = std::max(a, 0.0), pb = std::max(b, 0.0);
+    if (a * b >= 0) return (pa + pb) / 2; // nearly always
+    return (pa * pa + pb * pb) / (2 * std::abs(a - b));
 }
 
 int counts(ResultId is, ResultId plus, ResultId minus) {
@@ -48,6 +48,19 @@ double integral(const CellTruth& truth, const SilmapPoint& from, const SilmapPoi
 }
 
 } // namespace
+
+ResultId result_at(const CellTruth& truth, double x, double y) {
+    const TruthSlab* slab = truth.slabs.data();
+    for (const TruthSlab* last = slab + truth.slabs.size() - 1; slab != last && slab->y1 <= y;)
+        ++slab;
+    const double u = (y - slab->y0) * slab->per_height;
+    ResultId result = slab->left;
+    for (const TruthLine& line : truth.all.lines_of(*slab)) {
+        if (line.top + u * line.run > x) break;
+        result = line.right;
+    }
+    return result;
+}
 
 double ShownCell::exit_of(const SilmapPoint& point, std::uint32_t link, const SilmapPoint& across) {
     switch (link) {

@@ -38,4 +38,7 @@ double area_of(const CellTruth& truth, ResultId result);
 double link_area(const CellTruth& truth, const fetex::SilmapPoint& point, std::uint32_t link, double exit,
                  const std::array<ResultId, 4>& corners);
 
+/// The result at a point of the cell.
+ResultId result_at(const CellTruth& truth, double x, double y);
+
 } // namespace fetexc

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace fetexc {
 namespace {
 
 using fetex::SilmapPoint;
+
+constexpr double kOut = 9.0 / 4, kStepWeight = 0.1;
 
 SilmapPoint middle_of(const std::vector<CellChord>& chords) {
     double x = 0, y = 0, sum = 0;
@@ -25,25 +28,84 @@ SilmapPoint nearest_on(const CellChord& c, const SilmapPoint& p) {
     return {c.x0 + t * dx, c.y0 + t * dy};
 }
 
-} // namespace
+/// Steps beside an edge, the best of all columns that it passes where it is more level than upright, of rows elsewhere.
+class StepScan {
+  public:
+    /// shift: of the edge. weight: of the squared distance from the middle, against the distance from the edge.
+    StepScan(fetex::SilmapCellFormat format, const SilmapPoint& shift, const SilmapPoint& middle, double weight)
+        : format_(format), shift_(shift), middle_(middle), weight_(weight) {}
 
-SilmapPoint seed_of(const CellDrawing& drawing) {
-    if (!drawing.corners.empty()) {
-        return std::ranges::max_element(drawing.corners,
-                                        [](const CellCorner& a, const CellCorner& b) {
-                                            return std::tuple(a.edges, a.turn) < std::tuple(b.edges, b.turn);
-                                        })
-            ->at;
+    void add(const CellChord& c) {
+        const double dx = c.x1 - c.x0, dy = c.y1 - c.y0;
+        if (std::abs(dx) >= std::abs(dy))
+            scan<true>(c.x0 + shift_.x, c.y0 + shift_.y, dx, dy);
+        else
+            scan<false>(c.y0 + shift_.y, c.x0 + shift_.x, dy, dx);
     }
-    const SilmapPoint middle = middle_of(drawing.chords);
-    SilmapPoint best = middle;
+    [[nodiscard]] std::optional<CellSteps> best() const { return best_; }
+
+  private:
+    /// Along x or y from (u, v) on.
+    template <bool level> void scan(double u, double v, double du, double dv) {
+        if (du == 0) return;
+        const double from = std::min(u, u + du), to = std::max(u, u + du), slope = dv / du,
+                     across = 1 / std::sqrt(1 + slope * slope);
+        const std::uint32_t end = fetex::silmap_step(format_, to);
+        for (std::uint32_t k = fetex::silmap_step(format_, from); k <= end; ++k) {
+            const double at = fetex::silmap_position(format_, k);
+            if (at < from || at > to) continue;
+            const double edge = v + (at - u) * slope;
+            const std::uint32_t n = fetex::silmap_step(format_, edge);
+            const double place = fetex::silmap_position(format_, n);
+            const double along_u = at - (level ? middle_.x : middle_.y),
+                         along_v = place - (level ? middle_.y : middle_.x);
+            const double cost = std::abs(place - edge) * across + weight_ * (along_u * along_u + along_v * along_v);
+            if (cost >= least_) continue;
+            least_ = cost, best_ = level ? CellSteps{k, n} : CellSteps{n, k};
+        }
+    }
+
+    fetex::SilmapCellFormat format_;
+    SilmapPoint shift_, middle_;
+    double weight_, least_ = INFINITY;
+    std::optional<CellSteps> best_;
+};
+
+SilmapPoint nearest_of(const CellDrawing& drawing, const SilmapPoint& to) {
+    SilmapPoint best = to;
     double least = INFINITY;
     for (const CellChord& c : drawing.chords) {
-        const SilmapPoint p = nearest_on(c, middle);
-        const double square = (p.x - middle.x) * (p.x - middle.x) + (p.y - middle.y) * (p.y - middle.y);
+        const SilmapPoint p = nearest_on(c, to);
+        const double square = (p.x - to.x) * (p.x - to.x) + (p.y - to.y) * (p.y - to.y);
         if (square < least) least = square, best = p;
     }
     return best;
+}
+
+} // namespace
+
+CellSteps seed_of(const CellDrawing& drawing, fetex::SilmapCellFormat format) {
+    const auto at = [&](const SilmapPoint& p) -> CellSteps {
+        return {fetex::silmap_step(format, p.x), fetex::silmap_step(format, p.y)};
+    };
+    if (!drawing.corners.empty()) {
+        return at(std::ranges::max_element(drawing.corners, [](const CellCorner& a, const CellCorner& b) {
+                      return std::tuple(a.edges, a.turn) < std::tuple(b.edges, b.turn);
+                  })->at);
+    }
+    const SilmapPoint middle = middle_of(drawing.chords), on_edge = nearest_of(drawing, middle);
+    std::size_t across = 0;
+    for (const std::vector<double>& side : drawing.crossings)
+        across += side.size();
+    if (across != 2) return at(on_edge);
+    // The middle of an arc lies a third of its height inside. Chords three quarters of the height farther out have as
+    // much of the arc outside as inside.
+    const double height = 3 * std::hypot(on_edge.x - middle.x, on_edge.y - middle.y);
+    const SilmapPoint shift{kOut * (on_edge.x - middle.x), kOut * (on_edge.y - middle.y)};
+    StepScan scan(format, shift, on_edge, kStepWeight / fetex::silmap_steps(format) + height);
+    for (const CellChord& c : drawing.chords)
+        scan.add(c);
+    return scan.best().value_or(at(on_edge));
 }
 
 } // namespace fetexc

@@ -6,8 +6,13 @@
 
 namespace fetexc {
 
-/// In the corner of the drawing with the most edges, of those with two the sharpest; without one in the point of the
-/// edges that is nearest to their middle.
-fetex::SilmapPoint seed_of(const CellDrawing& drawing);
+struct CellSteps {
+    std::uint32_t x = 0, y = 0;
+};
+
+/// In the corner of the drawing with the most edges, of those with two the sharpest. Without one and with one edge
+/// through the cell, where the edge passes a step nearly exactly, not far from its middle; a bent one is passed on its
+/// outer side, by as much as halves the area beside its chords. Else in the point of the edges nearest to their middle.
+CellSteps seed_of(const CellDrawing& drawing, fetex::SilmapCellFormat format);
 
 } // namespace fetexc

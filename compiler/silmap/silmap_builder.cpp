@@ -73,15 +73,10 @@ Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options,
     return PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
 }
 
-/// What chords may miss edges by, in cells.
-double chord_of(const SilmapOptions& options) {
-    return budget::kSilmapChord / fetex::silmap_steps(options.cell_format);
-}
-
 /// Everything but colours.
 void fit_cells(SilmapCells& cells, const SilmapOptions& options, SilmapBuild& build) {
     const double area = static_cast<double>(cells.width) * cells.height;
-    place_seeds(cells, options.cell_format, options.threads);
+    link_cells(cells, options.threads);
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
     const FitCounts counts = fit_points(cells, options.cell_format, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
@@ -115,7 +110,7 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, chord_of(options), options.threads,
+    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
                                                   options.skip, build.report.planar);
     if (!cells) return inconsistent();
     if (progress) progress("silmap", 0.5);
@@ -136,7 +131,7 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
     if (progress) progress("silmap", 0);
     const Result<PlanarMap> map = map_of_cells(picture.features, options, build.report);
     if (!map) return map.error();
-    std::optional<SilmapCells> cells = read_feature_cells(map.value(), picture.features, chord_of(options),
+    std::optional<SilmapCells> cells = read_feature_cells(map.value(), picture.features, options.cell_format,
                                                           options.threads, options.skip, build.report.planar);
     if (!cells) return inconsistent();
     fit_cells(*cells, options, build);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "compiler/error_budget.h"
 #include "compiler/silmap/point_seed.h"
 
 namespace fetexc {
@@ -16,15 +17,18 @@ std::array<std::uint32_t, 2> texels_beside(std::uint32_t cell, std::uint32_t tex
     return {cell > 0 ? cell - 1 : 0, std::min(cell, texels - 1)};
 }
 
-/// From a cell to its neighbour.
-constexpr std::array<SilmapPoint, 4> kToNeighbour{{{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
+void place(SilmapCellData& c, std::uint32_t x, std::uint32_t y, fetex::SilmapCellFormat format) {
+    c.x = x, c.y = y;
+    c.shown.point = {fetex::silmap_position(format, x), fetex::silmap_position(format, y)};
+}
 
 class RowReader {
   public:
     /// faces: of features; then results mean nothing.
-    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord, const SkipRules& skip,
-              FaceRow* faces, SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), faces_(faces), out_(out) {
+    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
+              const SkipRules& skip, FaceRow* faces, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip),
+          reader_(map, budget::kSilmapChord / fetex::silmap_steps(format)), format_(format), faces_(faces), out_(out) {
         if (faces_ != nullptr) mapper_.tell_faces_apart();
     }
 
@@ -74,7 +78,8 @@ class RowReader {
             c.edges_across |= static_cast<std::uint32_t>(std::min<std::size_t>(crossings.size(), 255)) << 8 * link;
             if (crossings.size() == 1) c.crossing[link] = static_cast<float>(crossings[0]);
         }
-        c.seed = seed_of(drawing_);
+        const CellSteps seed = seed_of(drawing_, format_);
+        place(c, seed.x, seed.y, format_);
         cells.push_back(c);
     }
 
@@ -82,6 +87,7 @@ class RowReader {
     PlanarStats stats_;
     TexelMapper mapper_;
     CellReader reader_;
+    fetex::SilmapCellFormat format_;
     FaceRow* faces_;
     SilmapCells& out_;
     TexelMap cell_;
@@ -105,7 +111,8 @@ bool one_result(const std::array<ResultId, 4>& c) { return c[0] == c[1] && c[0] 
 
 /// Cells without edges whose corners differ: an edge runs along a side.
 std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j,
-                                       const std::vector<SilmapCellData>& edged, TruthSlabs& truth) {
+                                       const std::vector<SilmapCellData>& edged, fetex::SilmapCellFormat format,
+                                       TruthSlabs& truth) {
     std::vector<SilmapCellData> out;
     auto next = edged.begin();
     for (std::uint32_t i = 0; i <= cells.width; ++i) {
@@ -116,6 +123,7 @@ std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j
         if (one_result(corners_of(cells, i, j))) continue;
         SilmapCellData c;
         c.i = i, c.j = j;
+        place(c, fetex::silmap_step(format, 0.5), fetex::silmap_step(format, 0.5), format);
         c.first_slab = static_cast<std::uint32_t>(truth.slabs.size()), c.slabs = 1;
         TruthBuilder::add_plain(cells.inside(i, j), cells.box(c), truth);
         out.push_back(c);
@@ -212,9 +220,9 @@ void link_cells(SilmapCells& cells, unsigned threads) {
 namespace {
 
 /// faces: of features, a row each; or none.
-std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
-                                    unsigned threads, const SkipRules& skip, std::span<FaceRow> faces,
-                                    PlanarStats& stats) {
+std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor,
+                                    fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                    std::span<FaceRow> faces, PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
     out.results.resize(std::size_t{out.width} * out.height);
@@ -225,7 +233,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     std::vector<PlanarStats> row_stats(rows);
     std::vector<char> good(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, chord, skip, faces.empty() ? nullptr : &faces[j], out);
+        RowReader reader(map, scene, compositor, format, skip, faces.empty() ? nullptr : &faces[j], out);
         good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
         row_stats[j] = reader.stats();
     });
@@ -233,7 +241,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     for (const PlanarStats& s : row_stats)
         add(stats, s);
     parallel_for(rows, threads, [&](std::size_t j) {
-        edged[j] = with_plain(out, static_cast<std::uint32_t>(j), edged[j], out.truth[j]);
+        edged[j] = with_plain(out, static_cast<std::uint32_t>(j), edged[j], format, out.truth[j]);
     });
     for (const std::vector<SilmapCellData>& row : edged) {
         out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
@@ -245,18 +253,20 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
 
 } // namespace
 
-std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
-                                      unsigned threads, const SkipRules& skip, PlanarStats& stats) {
-    return read_all(map, scene, compositor, chord, threads, skip, {}, stats);
+std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
+                                      fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                      PlanarStats& stats) {
+    return read_all(map, scene, compositor, format, threads, skip, {}, stats);
 }
 
-std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, double chord,
-                                              unsigned threads, const SkipRules& skip, PlanarStats& stats) {
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
+                                              fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                              PlanarStats& stats) {
     Compositor unasked(features, skip);
     std::vector<FaceRow> faces;
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         faces.emplace_back(map, j);
-    auto out = read_all(map, features, unasked, chord, threads, skip, faces, stats);
+    auto out = read_all(map, features, unasked, format, threads, skip, faces, stats);
     if (!out) return out;
     out->of_features = true;
     if (!find_boundaries(*out, map, faces, threads)) return std::nullopt;

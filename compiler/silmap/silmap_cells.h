@@ -17,6 +17,9 @@ namespace fetexc {
 /// A link across which a neighbour's point is the own one, a cell further: at the border of the canvas.
 inline constexpr std::uint32_t kOwnPoint = kNone - 1;
 
+/// From a cell to its neighbour, by link.
+inline constexpr std::array<fetex::SilmapPoint, 4> kToNeighbour{{{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
+
 struct SilmapCellData {
     std::uint32_t i = 0, j = 0;
     std::uint32_t boundaries = 0; ///< set of links
@@ -29,7 +32,6 @@ struct SilmapCellData {
     std::uint32_t first_slab = 0, slabs = 0;
     std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
     std::uint32_t corners = 0;      ///< of the drawing, inside
-    fetex::SilmapPoint seed{0.5, 0.5};
     std::array<float, 4> crossing{-1, -1, -1, -1}; ///< of an edge on a side that has one only, else -1
     /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
     std::array<ResultId, 4> faces{};
@@ -57,13 +59,16 @@ struct SilmapCells {
     void measure(SilmapCellData& c) const;
 };
 
-/// map: of make_cell_grid. chord: cells. Points are where an edge turns or meets others, else on an edge.
-std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor, double chord,
-                                      unsigned threads, const SkipRules& skip, PlanarStats& stats);
+/// map: of make_cell_grid. Points are seeds (point_seed.h); links and areas aren't there yet. None: the map contradicts
+/// itself. OLD Points are where an edge turns or meets others, else on an edge.
+std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
+                                      fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                      PlanarStats& stats);
 
 /// The same of features over an image (feature_scene): each face of a cell is a result of its own.
-std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, double chord,
-                                              unsigned threads, const SkipRules& skip, PlanarStats& stats);
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
+                                              fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
+                                              PlanarStats& stats);
 
 /// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
 void link_cells(SilmapCells& cells, unsigned threads);

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/silmap/point_moves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/error_budget.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::SilmapPoint;
+
+constexpr std::uint32_t opposite(std::uint32_t link) { return link ^ 2u; }
+
+struct Step {
+    std::int64_t x, y;
+};
+constexpr std::array<Step, 8> kSteps{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+/// The step that goes nearest to a direction.
+std::size_t octant(const SilmapPoint& g) {
+    constexpr double kSteep = 0.41421356237309503; // tan(π/8)
+    const double ax = std::abs(g.x), ay = std::abs(g.y);
+    const int x = ax > kSteep * ay ? (g.x > 0 ? 1 : -1) : 0, y = ay > kSteep * ax ? (g.y > 0 ? 1 : -1) : 0;
+    for (std::size_t k = 0; k < kSteps.size(); ++k) {
+        if (kSteps[k].x == x && kSteps[k].y == y) return k;
+    }
+    return 0;
+}
+
+/// Seen from the point outwards: the result on the right of a link, and on the left.
+std::pair<ResultId, ResultId> beside(std::uint32_t link, const std::array<ResultId, 4>& corners) {
+    using namespace fetex;
+    switch (link) {
+    case kSilmapWest:
+        return {corners[kSilmapNW], corners[kSilmapSW]};
+    case kSilmapNorth:
+        return {corners[kSilmapNE], corners[kSilmapNW]};
+    case kSilmapEast:
+        return {corners[kSilmapSE], corners[kSilmapNE]};
+    default:
+        return {corners[kSilmapSW], corners[kSilmapSE]};
+    }
+}
+
+} // namespace
+
+double PointMoves::wrong_around(std::uint32_t cell) const {
+    double sum = cells_.cells[cell].wrong;
+    for (const std::uint32_t n : cells_.cells[cell].neighbours)
+        sum += n < kOwnPoint ? cells_.cells[n].wrong : 0;
+    return sum;
+}
+
+/// What the point at another place takes away; something not above `bar` if it isn't worth knowing.
+void PointMoves::evaluate(const SilmapCellData& c, double bar, Trial& t) const {
+    t.gain = 0;
+    const CellTruth truth = cells_.truth_of(c);
+    double most = 0; // that the neighbours may win
+    for (std::uint32_t link = 0; link < 4; ++link) {
+        const std::uint32_t neighbour = c.neighbours[link];
+        if (neighbour == kNone) continue;
+        t.exit[link] = ShownCell::exit_of(t.point, link, point_across(cells_, c, t.point, link));
+        t.right[link] = link_area(truth, t.point, link, t.exit[link], c.shown.corners);
+        t.gain += t.right[link] - c.right[link];
+        if (neighbour != kOwnPoint) most += cells_.cells[neighbour].wrong;
+    }
+    for (std::uint32_t link = 0; link < 4 && t.gain + most > bar; ++link) {
+        const std::uint32_t neighbour = c.neighbours[link];
+        if (neighbour >= kOwnPoint) continue;
+        const SilmapCellData& n = cells_.cells[neighbour];
+        const std::uint32_t back = opposite(link);
+        const SilmapPoint across{t.point.x - kToNeighbour[link].x, t.point.y - kToNeighbour[link].y};
+        t.neighbour_exit[link] = ShownCell::exit_of(n.shown.point, back, across);
+        t.neighbour_right[link] =
+            link_area(cells_.truth_of(n), n.shown.point, back, t.neighbour_exit[link], n.shown.corners);
+        t.gain += t.neighbour_right[link] - n.right[back], most -= n.wrong;
+    }
+}
+
+bool PointMoves::try_at(const SilmapCellData& c, std::int64_t x, std::int64_t y, Trial& best) {
+    if (x < 0 || y < 0 || x >= steps_ || y >= steps_ || (x == c.x && y == c.y)) return false;
+    Trial trial;
+    trial.x = x, trial.y = y;
+    trial.point = {fetex::silmap_position(format_, static_cast<std::uint32_t>(x)),
+                   fetex::silmap_position(format_, static_cast<std::uint32_t>(y))};
+    ++tried_;
+    evaluate(c, best.gain, trial);
+    if (!(trial.gain > best.gain)) return false;
+    best = trial;
+    return true;
+}
+
+void PointMoves::accept(SilmapCellData& c, const Trial& t) {
+    c.x = static_cast<std::uint32_t>(t.x), c.y = static_cast<std::uint32_t>(t.y);
+    c.shown.point = t.point;
+    for (std::uint32_t link = 0; link < 4; ++link) {
+        if (c.neighbours[link] == kNone) continue;
+        c.wrong -= t.right[link] - c.right[link];
+        c.shown.exit[link] = t.exit[link], c.right[link] = t.right[link];
+        if (c.neighbours[link] == kOwnPoint) continue;
+        SilmapCellData& n = cells_.cells[c.neighbours[link]];
+        const std::uint32_t back = opposite(link);
+        n.wrong -= t.neighbour_right[link] - n.right[back];
+        n.shown.exit[back] = t.neighbour_exit[link], n.right[back] = t.neighbour_right[link];
+    }
+}
+
+/// Of what is won by the point's place, up to a factor, from a few points along each link: the region that lies there
+/// should be on its own side of the link.
+SilmapPoint PointMoves::gradient(const SilmapCellData& c) const {
+    constexpr std::array<double, 4> parts{0.125, 0.375, 0.625, 0.875}; // of the way to the other point
+    const CellTruth own = cells_.truth_of(c);
+    SilmapPoint sum{0, 0};
+    for (std::uint32_t link = 0; link < 4; ++link) {
+        const std::uint32_t neighbour = c.neighbours[link];
+        if (neighbour == kNone) continue;
+        const SilmapPoint &p = c.shown.point, across = point_across(cells_, c, p, link);
+        const double dx = across.x - p.x, dy = across.y - p.y;
+        const auto [right, left] = beside(link, c.shown.corners);
+        double balance = 0;
+        for (const double part : parts) {
+            const double x = p.x + part * dx, y = p.y + part * dy;
+            const bool inside = x >= 0 && x < 1 && y >= 0 && y < 1;
+            if (!inside && neighbour == kOwnPoint) continue;
+            const ResultId is = inside ? result_at(own, x, y)
+                                       : result_at(cells_.truth_of(cells_.cells[neighbour]), x - kToNeighbour[link].x,
+                                                   y - kToNeighbour[link].y);
+            balance += (1 - part) * (static_cast<int>(is == right) - static_cast<int>(is == left));
+        }
+        sum.x += balance * dy, sum.y -= balance * dx;
+    }
+    return sum;
+}
+
+double PointMoves::walk(std::uint32_t cell, std::int64_t stride) {
+    SilmapCellData& c = cells_.cells[cell];
+    double won = 0;
+    Step came{0, 0};
+    for (;;) {
+        const SilmapPoint g = gradient(c);
+        if (g.x == 0 && g.y == 0) return won;
+        const std::size_t ahead = octant(g);
+        Trial best;
+        best.gain = budget::kSilmapWorthAMove;
+        for (const std::size_t turn : {0, 1, 7, 2, 6}) {
+            const Step& step = kSteps[(ahead + turn) % kSteps.size()];
+            // Beside where it came from: that has been tried.
+            if (won > 0 && std::abs(step.x + came.x) <= 1 && std::abs(step.y + came.y) <= 1) continue;
+            try_at(c, c.x + stride * step.x, c.y + stride * step.y, best);
+        }
+        if (best.x < 0) return won;
+        won += best.gain;
+        came = {(best.x - c.x) / stride, (best.y - c.y) / stride};
+        accept(c, best);
+    }
+}
+
+double PointMoves::search(std::uint32_t cell, std::span<const std::int64_t> strides) {
+    SilmapCellData& c = cells_.cells[cell];
+    Trial best;
+    best.gain = budget::kSilmapWorthAMove;
+    const std::int64_t first = strides.front();
+    for (std::int64_t y = first / 2; y < steps_; y += first) {
+        for (std::int64_t x = first / 2; x < steps_; x += first)
+            try_at(c, x, y, best);
+    }
+    double won = 0;
+    if (best.x >= 0) won += best.gain, accept(c, best);
+    for (const std::int64_t stride : strides) {
+        for (bool moved = true; moved;) {
+            Trial next;
+            next.gain = budget::kSilmapWorthAMove;
+            for (const Step& step : kSteps)
+                try_at(c, c.x + stride * step.x, c.y + stride * step.y, next);
+            moved = next.x >= 0;
+            if (moved) won += next.gain, accept(c, next);
+        }
+    }
+    return won;
+}
+
+} // namespace fetexc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Moves of one cell's point that lower the wrong area of the cell and its neighbours.
+#pragma once
+
+#include "compiler/silmap/silmap_cells.h"
+
+namespace fetexc {
+
+/// Reads and writes the cell and those next to it; of those beyond, it reads points.
+class PointMoves {
+  public:
+    PointMoves(SilmapCells& cells, fetex::SilmapCellFormat format)
+        : cells_(cells), format_(format), steps_(fetex::silmap_steps(format)) {}
+
+    /// From place to place a stride away, where the most is won, until nothing is. Looks ahead only, where edges lie on
+    /// one side of the links. Returns what was won, square cells.
+    double walk(std::uint32_t cell, std::int64_t stride);
+    /// The best of all places whose steps are multiples of the first stride, walked from with the others.
+    double search(std::uint32_t cell, std::span<const std::int64_t> strides);
+    /// Of the cell and its neighbours.
+    [[nodiscard]] double wrong_around(std::uint32_t cell) const;
+    [[nodiscard]] std::uint64_t tried() const { return tried_; } ///< places
+
+  private:
+    struct Trial {
+        std::int64_t x = -1, y = -1;
+        fetex::SilmapPoint point;
+        std::array<double, 4> exit{}, right{};                     ///< own, by link
+        std::array<double, 4> neighbour_exit{}, neighbour_right{}; ///< of the neighbour there, its link back
+        double gain = 0;
+    };
+    bool try_at(const SilmapCellData& c, std::int64_t x, std::int64_t y, Trial& best);
+    void evaluate(const SilmapCellData& c, double bar, Trial& t) const;
+    void accept(SilmapCellData& c, const Trial& t);
+    [[nodiscard]] fetex::SilmapPoint gradient(const SilmapCellData& c) const;
+
+    SilmapCells& cells_;
+    fetex::SilmapCellFormat format_;
+    std::int64_t steps_;
+    std::uint64_t tried_ = 0;
+};
+
+} // namespace fetexc
