@@ -150,24 +150,13 @@ FetexBilevelValues fetexBilevelValues(ivec2 base, vec2 local) {
 }
 #endif
 
-// The part of a pixel that is above, if a straight edge cuts it. change: of t along its sides.
-float fetexBilevelCut(float t, vec2 change) {
-    change = abs(change);
-    float shorter = min(change.x, change.y), longer = max(change.x, change.y), fromEdge = abs(t - 0.5);
-    // A corner of the pixel meets the edge: from there on the part grows ever less. Quotients of 0 are kept out.
-    float beyond = clamp(fromEdge - 0.5 * (longer - shorter), 0.0, shorter);
-    float missing = 0.5 * beyond * (beyond / max(shorter, 1e-30));
-    // Where nothing changes the cut is hard: the quotient is out of range.
-    return clamp(0.5 + sign(t - 0.5) * ((fromEdge - missing) / max(longer, 1e-30)), 0.0, 1.0);
-}
-
 float fetexBilevelCoverageTexel(ivec2 base, vec2 local, vec2 pixel) {
     FetexBilevelValues v = fetexBilevelValues(base, local);
     float t = fetexBilevelCombine(v.value);
 #if FETEX_BILEVEL_FILTERED
-    return fetexBilevelCut(t, FETEX_BILEVEL_DERIVATIVES(t));
+    return fetexCut(t - 0.5, FETEX_BILEVEL_DERIVATIVES(t));
 #else
-    return fetexBilevelCut(t, fetexBilevelChosen(v.slopeX, v.slopeY, v.value) * clamp(pixel, 0.0, 1.0));
+    return fetexCut(t - 0.5, fetexBilevelChosen(v.slopeX, v.slopeY, v.value) * clamp(pixel, 0.0, 1.0));
 #endif
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-// What textures with mip levels share: which levels a pixel takes, and interpolation in full precision. Goes once, after a
-// prelude, before fetex_fbt_mip.glsl, fetex_bilevel.glsl and fetex_silmap.glsl. Level 0 is the size of the texture, level k the
-// chunk FBTM, BLVM or SLMM of level k and GL's level k - 1.
+// What samplers share: which mip levels a pixel takes, interpolation in full precision, and soft edges. Goes once, after a
+// prelude, before fetex_fbt_mip.glsl, fetex_bilevel.glsl, fetex_silmap.glsl and fetex_pinchmap.glsl. Level 0 is the size of the
+// texture, level k the chunk FBTM, BLVM, SLMM or PNCM of level k and GL's level k - 1.
 
 // Rounded down, exactly; for v > 0.
 int fetexLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }
@@ -34,4 +34,15 @@ vec4 fetexBilinear(highp sampler2D samples, vec2 uv, int level, ivec2 size) {
     vec4 upper = mix(texelFetch(samples, a, level), texelFetch(samples, ivec2(b.x, a.y), level), weight.x);
     vec4 lower = mix(texelFetch(samples, ivec2(a.x, b.y), level), texelFetch(samples, b, level), weight.x);
     return mix(upper, lower, weight.y);
+}
+
+// The part of a pixel on the positive side of a straight edge. value: in its middle, 0 on the edge; change: along its sides.
+float fetexCut(float value, vec2 change) {
+    change = abs(change);
+    float shorter = min(change.x, change.y), longer = max(change.x, change.y), fromEdge = abs(value);
+    // A corner of the pixel meets the edge: from there on the part grows ever less. Quotients of 0 are kept out.
+    float beyond = clamp(fromEdge - 0.5 * (longer - shorter), 0.0, shorter);
+    float missing = 0.5 * beyond * (beyond / max(shorter, 1e-30));
+    // Where nothing changes the cut is hard: the quotient is out of range.
+    return clamp(0.5 + sign(value) * ((fromEdge - missing) / max(longer, 1e-30)), 0.0, 1.0);
 }

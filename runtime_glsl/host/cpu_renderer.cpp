@@ -153,6 +153,26 @@ Outcome<Image> render_cpu(const SilmapTexture& texture, const View& view, const 
     });
 }
 
+Outcome<Image> render_cpu(const PinchmapTexture& texture, const View& view, const RenderSize& size, unsigned threads) {
+    if (auto bad = check_view(view, size)) return *bad;
+    const bool mips = !texture.mips.empty() &&
+                      wants_mips(view, size, pinchmap_signal_width(texture), pinchmap_signal_height(texture));
+    const std::uint32_t supersample = mips ? 1 : size.supersample;
+    const ImageAxis columns(view.x, view.w, texture.width, size.width, supersample);
+    const ImageAxis rows(view.y, view.h, texture.height, size.height, supersample);
+    const PixelSides sides = pixel_sides(view, size, texture.width, texture.height);
+    const auto [width, height] = sides_of_sample(columns, rows);
+    const PinchmapPixel sample = size.filter == Filter::Point ? PinchmapPixel{} : PinchmapPixel{width, height};
+    const RenderSize drawn{size.width, size.height, supersample};
+    return render_samples(columns, rows, drawn, threads, [&](std::int64_t x, std::int64_t y) -> Rgba {
+        const auto [i, fx] = base_and_local(x, texture.width);
+        const auto [j, fy] = base_and_local(y, texture.height);
+        const FbtColor c = mips ? pinchmap_sample_mip(texture, i + fx, j + fy, {sides.x, sides.y})
+                                : pinchmap_sample_area_local(texture, i, j, fx, fy, sample);
+        return {c.r, c.g, c.b, c.a};
+    });
+}
+
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,
                                  std::uint32_t bitmap_height, const View& view, const RenderSize& size) {
     if (auto bad = check_view(view, size)) return *bad;

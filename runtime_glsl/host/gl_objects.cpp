@@ -105,6 +105,40 @@ GLuint make_mip_texture(const GladGLContext& gl, GLuint unit, GLenum internal_fo
     return texture;
 }
 
+std::vector<std::uint16_t> halves_of(std::span<const std::uint32_t> words) {
+    std::vector<std::uint16_t> halves;
+    halves.reserve(2 * words.size());
+    for (const std::uint32_t word : words) {
+        halves.push_back(static_cast<std::uint16_t>(word));
+        halves.push_back(static_cast<std::uint16_t>(word >> 16));
+    }
+    return halves;
+}
+
+GLuint make_sample_texture(const GladGLContext& gl, GLuint unit, SilmapSampleFormat sample_format, std::uint32_t width,
+                           std::uint32_t height, std::span<const std::uint32_t> samples) {
+    const auto make = [&](GLenum internal_format, GLenum format, GLenum type, const void* data) {
+        return make_texture(gl, unit, internal_format, width, height, format, type, data);
+    };
+    switch (sample_format) {
+    case SilmapSampleFormat::Rgba8:
+    case SilmapSampleFormat::Rgb8: // as drivers would widen it anyway
+        break;
+    case SilmapSampleFormat::Rgba16:
+        return make(GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, halves_of(samples).data());
+    case SilmapSampleFormat::Rgba16F:
+        return make(GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, halves_of(samples).data());
+    }
+    return make(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, samples.data());
+}
+
+void set_filter(const GladGLContext& gl, GLint filter) { set_filters(gl, filter, filter); }
+
+void set_filters(const GladGLContext& gl, GLint magnify, GLint minify) {
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magnify);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minify);
+}
+
 Outcome<Target> make_target(const GladGLContext& gl, GLenum internal_format, std::uint32_t side) {
     Target target;
     const GLenum type = internal_format == GL_RGBA32F ? GL_FLOAT : GL_UNSIGNED_BYTE;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "formats/silmap.h"
 #include "runtime_glsl/host/gl_context.h"
 #include "runtime_glsl/host/sample_grid.h"
 
@@ -35,6 +36,18 @@ GLuint make_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format
 /// bytes for channels. NEAREST, clamped to its edges; bound to the unit.
 GLuint make_mip_texture(const GladGLContext& gl, GLuint unit, GLenum internal_format, std::uint32_t width,
                         std::uint32_t height, GLenum format, std::span<const std::uint8_t> levels);
+
+/// Words of two 16-bit integers each, the low ones first.
+std::vector<std::uint16_t> halves_of(std::span<const std::uint32_t> words);
+
+/// Samples of a bitmap, packed as a file's are in memory; RGB8 as RGBA8, 16 bits as integers. NEAREST, clamped to its
+/// edges; bound to the unit.
+GLuint make_sample_texture(const GladGLContext& gl, GLuint unit, SilmapSampleFormat format, std::uint32_t width,
+                           std::uint32_t height, std::span<const std::uint32_t> samples);
+
+/// Both filters of the texture that is bound: GL_NEAREST, GL_LINEAR; the second for less than a texel a pixel.
+void set_filter(const GladGLContext& gl, GLint filter);
+void set_filters(const GladGLContext& gl, GLint magnify, GLint minify);
 
 /// What is uploaded has rows without padding, for as long as it lives.
 class TightRows {

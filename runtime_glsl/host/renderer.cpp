@@ -145,6 +145,10 @@ Outcome<Layer> Renderer::State::bind(Sampler sampler) {
     case Sampler::SilmapArea:
     case Sampler::SilmapMips:
         return bind_silmap(sampler);
+    case Sampler::Pinchmap:
+    case Sampler::PinchmapArea:
+    case Sampler::PinchmapMips:
+        return bind_pinchmap(sampler);
     }
     const BilevelProgram kind = sampler == Sampler::Bilevel       ? BilevelProgram::Hard
                                 : sampler == Sampler::BilevelArea ? BilevelProgram::Soft

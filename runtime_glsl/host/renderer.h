@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Draws an FBT, a bi-level texture, a silhouette-map texture, or a plain bitmap to compare them with, off screen. No
+/// Draws an FBT, a bi-level texture, a silhouette-map texture, a pinchmap, or a plain bitmap to compare them with, off
+/// screen. No
 /// GL library is linked: a back end is opened with dlopen when it is asked for. Every pixel centre is computed in 32.32
 /// fixed point (sample_grid.h), on the GPU and on the CPU alike: a view may be as deep as wanted.
 #pragma once
@@ -9,6 +10,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/pinchmap.h"
 #include "formats/silmap.h"
 #include "runtime_glsl/host/image.h"
 #include "runtime_glsl/host/shader_source.h"
@@ -41,18 +43,26 @@ enum class Sampler : std::uint8_t {
     FbtMips,  ///< the FBT's mip chain, whatever the view
     Bilinear, ///< the bitmap through the hardware's LINEAR filter: the plain lookup that costs are compared with
     Field,
-    Bilevel,     ///< the bi-level texture, cut hard
-    BilevelArea, ///< cut softly
-    BilevelMips, ///< its levels, whatever the view
-    Silmap,      ///< the silhouette-map texture at points
-    SilmapArea,  ///< over pixels
-    SilmapMips,  ///< its levels, whatever the view
+    Bilevel,      ///< the bi-level texture, cut hard
+    BilevelArea,  ///< cut softly
+    BilevelMips,  ///< its levels, whatever the view
+    Silmap,       ///< the silhouette-map texture at points
+    SilmapArea,   ///< over pixels
+    SilmapMips,   ///< its levels, whatever the view
+    Pinchmap,     ///< the pinchmap at points
+    PinchmapArea, ///< over pixels
+    PinchmapMips, ///< its levels, whatever the view
 };
 
 /// How a bi-level texture is interpolated.
 enum class BilevelFetch : std::uint8_t {
     Interpolated, ///< in the shader, in full precision
     Filtered,     ///< one fetch through the hardware's LINEAR filter; right where linear_filter_error() is small enough
+};
+/// How a pinchmap and its signal are interpolated.
+enum class PinchmapFetch : std::uint8_t {
+    Interpolated, ///< in the shader, in full precision
+    Filtered,     ///< one fetch of each through the hardware's LINEAR filter; a map of 16 bits not in ES
 };
 /// Of linear_filter_error(): edges stay within 2^-12 of the way between the least and the greatest byte.
 inline constexpr double kGoodFilterError = 0x1p-12;
@@ -95,6 +105,11 @@ class Renderer {
     /// Filter::Point samples points, Area and ExactArea, which is one and the same, pixels.
     Outcome<Image> render_silmap(const View& view, const RenderSize& size);
 
+    /// Uploads the texture and builds the shader that it needs. Precondition: the texture passes validate_pinchmap.
+    RuntimeStatus upload_pinchmap(const PinchmapTexture& texture, PinchmapFetch fetch = PinchmapFetch::Interpolated);
+    /// Filter::Point samples points, Area and ExactArea, which is one and the same, pixels.
+    Outcome<Image> render_pinchmap(const View& view, const RenderSize& size);
+
     /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     [[nodiscard]] bool has_bitmap() const;
@@ -127,6 +142,9 @@ Outcome<Image> render_cpu(const BilevelTexture& texture, const View& view, const
 /// The same through silmap_sample_local, silmap_sample_area_local or silmap_sample_mip.
 Outcome<Image> render_cpu(const SilmapTexture& texture, const View& view, const RenderSize& size,
                           SilmapFilter filter = SilmapFilter::Filtered, unsigned threads = 0);
+/// The same through pinchmap_sample_local, pinchmap_sample_area_local or pinchmap_sample_mip.
+Outcome<Image> render_cpu(const PinchmapTexture& texture, const View& view, const RenderSize& size,
+                          unsigned threads = 0);
 /// As Renderer::render_bitmap, on the CPU.
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,
                                  std::uint32_t bitmap_height, const View& view, const RenderSize& size);

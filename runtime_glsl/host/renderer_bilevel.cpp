@@ -19,12 +19,6 @@ struct ByteFormat {
 };
 constexpr ByteFormat kByteFormats[] = {{GL_R8, GL_RED}, {GL_RG8, GL_RG}, {GL_RGB8, GL_RGB}};
 
-/// Of the texture that is bound.
-void set_filter(const GladGLContext& gl, GLint filter) {
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-}
-
 /// What shaders depend on.
 BilevelTexture traits_of(const BilevelTexture& texture) {
     BilevelTexture traits;

@@ -21,17 +21,6 @@ SilmapTexture traits_of(const SilmapTexture& texture) {
     return traits;
 }
 
-/// Two words a sample as four halves, R first.
-std::vector<std::uint16_t> halves_of(const std::vector<std::uint32_t>& words) {
-    std::vector<std::uint16_t> halves;
-    halves.reserve(2 * words.size());
-    for (const std::uint32_t word : words) {
-        halves.push_back(static_cast<std::uint16_t>(word));
-        halves.push_back(static_cast<std::uint16_t>(word >> 16));
-    }
-    return halves;
-}
-
 } // namespace
 
 RuntimeStatus Renderer::State::check_silmap(const SilmapTexture& texture) const {
@@ -84,22 +73,6 @@ void Renderer::State::upload_silmap_cells(const SilmapTexture& texture) {
         make_texture(gl(), kCellUnit, GL_R8UI, columns, rows, GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes.data());
 }
 
-void Renderer::State::upload_silmap_colors(const SilmapTexture& texture) {
-    const auto upload = [&](GLenum internal_format, GLenum format, GLenum type, const void* data) {
-        silmap.colors =
-            make_texture(gl(), kColorUnit, internal_format, texture.width, texture.height, format, type, data);
-    };
-    switch (texture.sample_format) {
-    case SilmapSampleFormat::Rgba8:
-    case SilmapSampleFormat::Rgb8: // as drivers would widen it anyway
-        return upload(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, texture.colors.data());
-    case SilmapSampleFormat::Rgba16:
-        return upload(GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, halves_of(texture.colors).data());
-    case SilmapSampleFormat::Rgba16F:
-        return upload(GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, halves_of(texture.colors).data());
-    }
-}
-
 RuntimeStatus Renderer::State::upload_silmap(const SilmapTexture& texture, SilmapFilter filter) {
     if (auto bad = check_silmap(texture)) return bad;
     const SilmapTexture traits = traits_of(texture);
@@ -111,7 +84,8 @@ RuntimeStatus Renderer::State::upload_silmap(const SilmapTexture& texture, Silma
     silmap.programs[static_cast<std::size_t>(SilmapProgram::Point)] = point.value();
     const TightRows tight(gl());
     upload_silmap_cells(texture);
-    upload_silmap_colors(texture);
+    silmap.colors =
+        make_sample_texture(gl(), kColorUnit, texture.sample_format, texture.width, texture.height, texture.colors);
     if (!texture.mips.empty())
         silmap.mips =
             make_mip_texture(gl(), kMipUnit, GL_RGBA8, texture.width, texture.height, GL_RGBA,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 /// What a renderer holds. Internal to the host library; one file defines the part of each representation
-/// (renderer_fbt.cpp, renderer_bilevel.cpp, renderer_silmap.cpp), renderer.cpp the rest. A context is current in every
-/// function.
+/// (renderer_fbt.cpp, renderer_bilevel.cpp, renderer_silmap.cpp, renderer_pinchmap.cpp), renderer.cpp the rest. A
+/// context is current in every function.
 #pragma once
 
 #include <array>
@@ -38,6 +38,15 @@ struct SilmapLayer {
 };
 enum class SilmapProgram : std::uint8_t { Point, Area, Mips };
 
+/// A pinchmap as it was uploaded.
+struct PinchmapLayer {
+    std::array<Program, 3> programs; ///< by PinchmapProgram; compiled when they are first wanted
+    GLuint map = 0, signal = 0, mips = 0;
+    PinchmapTexture traits; ///< dimensions and what shaders depend on; of mips one element, if there are any
+    PinchmapFetch fetch = PinchmapFetch::Interpolated;
+};
+enum class PinchmapProgram : std::uint8_t { Point, Area, Mips };
+
 struct Renderer::State {
     std::unique_ptr<GlContext> context;
     RendererOptions options;
@@ -53,6 +62,7 @@ struct Renderer::State {
 
     BilevelLayer bilevel;
     SilmapLayer silmap;
+    PinchmapLayer pinchmap;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
@@ -84,10 +94,20 @@ struct Renderer::State {
         return silmap.programs[static_cast<std::size_t>(kind)];
     }
     void upload_silmap_cells(const SilmapTexture& texture);
-    void upload_silmap_colors(const SilmapTexture& texture);
     RuntimeStatus upload_silmap(const SilmapTexture& texture, SilmapFilter filter);
     void bind_silmap() const;
     Outcome<Layer> bind_silmap(Sampler sampler);
+    RuntimeStatus check_pinchmap(const PinchmapTexture& texture, PinchmapFetch fetch) const;
+    void delete_pinchmap();
+    Outcome<Program> build_pinchmap(const PinchmapTexture& traits, PinchmapFetch fetch, PinchmapProgram kind) const;
+    RuntimeStatus need_pinchmap_program(PinchmapProgram kind);
+    [[nodiscard]] const Program& pinchmap_program(PinchmapProgram kind) const {
+        return pinchmap.programs[static_cast<std::size_t>(kind)];
+    }
+    void upload_pinchmap_map(const PinchmapTexture& texture, PinchmapFetch fetch);
+    RuntimeStatus upload_pinchmap(const PinchmapTexture& texture, PinchmapFetch fetch);
+    void bind_pinchmap() const;
+    Outcome<Layer> bind_pinchmap(Sampler sampler);
     RuntimeStatus need_bitmap_programs();
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,

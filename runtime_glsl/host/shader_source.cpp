@@ -163,6 +163,30 @@ std::string silmap_mip_fragment_source(Dialect dialect, const SilmapTexture& tex
            file_text("view.glsl") + file_text("silmap_mip.frag.glsl");
 }
 
+std::string pinchmap_specialisation(const PinchmapTexture& texture, bool filtered) {
+    return define("FETEX_PINCHMAP_SCALE", texture.scale) +
+           define("FETEX_PINCHMAP_BITS", texture.map_format == PinchmapFormat::Bits8 ? 8 : 16) +
+           define("FETEX_PINCHMAP_SAMPLES", texture.sample_format == PinchmapSampleFormat::Rgba16) +
+           define("FETEX_PINCHMAP_MIPS", !texture.mips.empty()) +
+           define("FETEX_PINCHMAP_LINE_WIDTH", real(texture.line_width / kPinchmapLineUnit)) +
+           define("FETEX_PINCHMAP_LINE_COLOR", color(texture.line_color)) + define("FETEX_PINCHMAP_FILTERED", filtered);
+}
+
+std::string pinchmap_library_source(Dialect dialect, const PinchmapTexture& texture, bool filtered) {
+    return shader_prelude(dialect) + pinchmap_specialisation(texture, filtered) + file_text("fetex_levels.glsl") +
+           file_text("fetex_pinchmap.glsl");
+}
+
+std::string pinchmap_fragment_source(Dialect dialect, const PinchmapTexture& texture, Filter filter, bool filtered) {
+    return pinchmap_library_source(dialect, texture, filtered) + file_text("view.glsl") +
+           file_text(filter == Filter::Point ? "pinchmap.frag.glsl" : "pinchmap_area.frag.glsl");
+}
+
+std::string pinchmap_mip_fragment_source(Dialect dialect, const PinchmapTexture& texture, bool filtered) {
+    return pinchmap_library_source(dialect, texture, filtered) + define("FETEX_VIEW_FOOTPRINT", 1) +
+           file_text("view.glsl") + file_text("pinchmap_mip.frag.glsl");
+}
+
 std::string bitmap_fragment_source(Dialect dialect) {
     return shader_prelude(dialect) + file_text("view.glsl") + file_text("bitmap.frag.glsl");
 }

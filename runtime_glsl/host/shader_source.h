@@ -8,6 +8,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/pinchmap.h"
 #include "formats/silmap.h"
 #include "runtime_glsl/host/image.h"
 
@@ -30,9 +31,9 @@ std::string shader_prelude(Dialect dialect, bool texture_buffer = false);
 std::string fbt_specialisation(const FbtTraits& traits, FbtSampleFormat format = FbtSampleFormat::Rgba8);
 
 /// Prelude, specialisation, fetex_fbt.glsl and, to be followed by a fragment shader: for area sampling
-/// fetex_fbt_area.glsl; if the texture has a mip chain, that, fetex_levels.glsl and fetex_fbt_mip.glsl, whose level 0 then is exact unless
-/// the filter is Area. Only the traits and the sample format of the texture are looked at,
-/// and whether it has a chain.
+/// fetex_fbt_area.glsl; if the texture has a mip chain, that, fetex_levels.glsl and fetex_fbt_mip.glsl, whose level 0
+/// then is exact unless the filter is Area. Only the traits and the sample format of the texture are looked at, and
+/// whether it has a chain.
 std::string fbt_library_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                Filter filter = Filter::Point);
 
@@ -52,9 +53,16 @@ std::string silmap_specialisation(const SilmapTexture& texture, SilmapFilter fil
 std::string silmap_library_source(Dialect dialect, const SilmapTexture& texture,
                                   SilmapFilter filter = SilmapFilter::Filtered);
 
+/// The macros that fit fetex_pinchmap.glsl to an asset. filtered: one fetch a texture through the hardware's filter.
+/// Only scale, formats and line of the texture are looked at, and whether it has levels.
+std::string pinchmap_specialisation(const PinchmapTexture& texture, bool filtered = false);
+
+/// Prelude, specialisation, fetex_levels.glsl and fetex_pinchmap.glsl, to be followed by a fragment shader.
+std::string pinchmap_library_source(Dialect dialect, const PinchmapTexture& texture, bool filtered = false);
+
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bi-level
 /// texture without its levels (Point: cut hard, else softly) and with them, the silhouette-map texture likewise (Point:
-/// at points, else over pixels), the bitmap in full precision, the bitmap
+/// at points, else over pixels), the pinchmap likewise, the bitmap in full precision, the bitmap
 /// through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
@@ -68,6 +76,9 @@ std::string silmap_fragment_source(Dialect dialect, const SilmapTexture& texture
                                    SilmapFilter silmap_filter = SilmapFilter::Filtered);
 std::string silmap_mip_fragment_source(Dialect dialect, const SilmapTexture& texture,
                                        SilmapFilter silmap_filter = SilmapFilter::Filtered);
+std::string pinchmap_fragment_source(Dialect dialect, const PinchmapTexture& texture, Filter filter = Filter::Point,
+                                     bool filtered = false);
+std::string pinchmap_mip_fragment_source(Dialect dialect, const PinchmapTexture& texture, bool filtered = false);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

@@ -332,6 +332,131 @@ TEST_F(Shaders, ofSilmapTexturesHaveWhatTheAssetNeeds) {
             ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
 }
 
+/// All formats that shaders tell apart, with and without levels, a line and the hardware's filter.
+std::vector<std::pair<PinchmapTexture, bool>> all_pinchmaps() {
+    std::vector<std::pair<PinchmapTexture, bool>> all;
+    for (const PinchmapFormat map : {PinchmapFormat::Bits8, PinchmapFormat::Bits16}) {
+        for (const PinchmapSampleFormat samples : {PinchmapSampleFormat::Rgba8, PinchmapSampleFormat::Rgba16}) {
+            for (std::uint32_t switches = 0; switches < 8; ++switches) {
+                PinchmapTexture t;
+                t.map_format = map, t.sample_format = samples, t.scale = switches % 3;
+                if (switches & 1u) t.mips = {0};
+                if (switches & 2u) t.line_width = 3000, t.line_color = 0x80402010;
+                all.emplace_back(t, (switches & 4u) != 0);
+            }
+        }
+    }
+    return all;
+}
+
+TEST_F(Shaders, ofPinchmapsCompileInEveryDialect) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    for (const Dialect dialect : kDialects) {
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const auto& [texture, filtered] : all_pinchmaps()) {
+            for (const Filter filter : {Filter::Point, Filter::Area})
+                EXPECT_EQ(run(pinchmap_fragment_source(dialect, texture, filter, filtered), "pinchmap.frag", tool), "");
+            if (!texture.mips.empty()) {
+                EXPECT_EQ(run(pinchmap_mip_fragment_source(dialect, texture, filtered), "mip.frag", tool), "");
+            }
+        }
+    }
+}
+
+/// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
+TEST_F(Shaders, ofPinchmapsCompileByHand) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
+    const std::string main_text =
+        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+        "void main() { color = fetexPinchmapSample(uv) + fetexPinchmapSampleArea(uv, vec2(0.1))\n"
+        "    + fetexPinchmapPlaceAt(ivec2(1), uv, vec2(0.0)).line\n"
+        "#if FETEX_PINCHMAP_MIPS\n    + fetexPinchmapSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
+    std::stringstream library;
+    library << std::ifstream(root + "fetex_levels.glsl").rdbuf() << std::ifstream(root + "fetex_pinchmap.glsl").rdbuf();
+    ASSERT_GT(library.str().size(), 5000u);
+    for (const Dialect dialect : kDialects) {
+        std::stringstream prelude;
+        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const char* macros : {"", "#define FETEX_PINCHMAP_BITS 16\n#define FETEX_PINCHMAP_MIPS 1\n",
+                                   "#define FETEX_PINCHMAP_SAMPLES 1\n#define FETEX_PINCHMAP_SCALE 3\n",
+                                   "#define FETEX_PINCHMAP_FILTERED 1\n#define FETEX_PINCHMAP_LINE_WIDTH 0.1\n"})
+            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
+    }
+}
+
+TEST_F(Shaders, ofPinchmapsCrossToHlslMetalAndEs) {
+    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
+        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    const fs::path binary = folder_ / "shader.spv";
+    for (const auto& [texture, filtered] : all_pinchmaps()) {
+        const std::string source = texture.mips.empty()
+                                       ? pinchmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
+                                       : pinchmap_mip_fragment_source(Dialect::Vulkan450, texture, filtered);
+        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
+        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
+            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
+        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
+        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+    }
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+        ++found;
+    return found;
+}
+
+/// Where the hardware filters, a lookup is one fetch of each texture; else four. Every function that fetches is called
+/// once in a lookup.
+TEST_F(Shaders, ofPinchmapsFetchEachTextureOnceThroughTheFilter) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    PinchmapTexture t;
+    t.mips = {0};
+    for (const bool filtered : {true, false}) {
+        const std::string name = (folder_ / "preprocessed").string();
+        ASSERT_EQ(run(pinchmap_mip_fragment_source(Dialect::Glsl330, t, filtered), "one.frag",
+                      "glslangValidator -E @ 2>/dev/null | tr -d ' ' | tee " + name),
+                  "");
+        std::stringstream read;
+        read << std::ifstream(name).rdbuf();
+        const std::string text = read.str(), filter = "textureLod(fetexPinchmap", fetch = "texelFetch(fetexPinchmap";
+        ASSERT_GT(text.size(), 1000u);
+        for (const char* texture : {"Map,", "Signal,"}) {
+            EXPECT_EQ(count(text, filter + texture), filtered ? 1u : 0u) << texture;
+            if (filtered && std::string(texture) == "Map,") {
+                EXPECT_EQ(count(text, fetch + texture), 0u);
+            }
+        }
+        EXPECT_EQ(count(text, filter + "Mips,"), filtered ? 1u : 0u);
+        EXPECT_EQ(count(text, "fetexBilinear(fetexPinchmapMips"), filtered ? 0u : 2u);
+        EXPECT_EQ(count(text, "=fetexPinchmapInterpolate("), 1u);
+        EXPECT_EQ(count(text, "fetexPinchmapTexel("), filtered ? 0u : 5u); // one of them is its definition
+    }
+}
+
+TEST_F(Shaders, ofPinchmapsHaveWhatTheAssetNeeds) {
+    PinchmapTexture t;
+    t.scale = 2, t.map_format = PinchmapFormat::Bits16, t.sample_format = PinchmapSampleFormat::Rgba16, t.mips = {0};
+    t.line_width = 16384, t.line_color = 0xff0000ff;
+    EXPECT_EQ(pinchmap_specialisation(t, true),
+              "#define FETEX_PINCHMAP_SCALE 2\n#define FETEX_PINCHMAP_BITS 16\n#define FETEX_PINCHMAP_SAMPLES 1\n"
+              "#define FETEX_PINCHMAP_MIPS 1\n#define FETEX_PINCHMAP_LINE_WIDTH 2.500000000e-01\n"
+              "#define FETEX_PINCHMAP_LINE_COLOR vec4(1.000000000e+00, 0.000000000e+00, 0.000000000e+00, "
+              "1.000000000e+00)\n#define FETEX_PINCHMAP_FILTERED 1\n");
+    EXPECT_NE(pinchmap_specialisation({}).find("#define FETEX_PINCHMAP_BITS 8\n"), std::string::npos);
+    EXPECT_NE(pinchmap_specialisation({}).find("#define FETEX_PINCHMAP_LINE_WIDTH 0.000000000e+00\n"),
+              std::string::npos);
+    for (const Dialect dialect : kDialects)
+        for (const char c :
+             pinchmap_mip_fragment_source(dialect, t) + pinchmap_fragment_source(dialect, t, Filter::Area))
+            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+}
+
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
