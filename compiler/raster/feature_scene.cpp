@@ -2,10 +2,31 @@
 #include "compiler/raster/feature_scene.h"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace fetexc {
 namespace {
+
+/// From a point on the border of the image or beyond it straight away from it, as far as the image is wide or high;
+/// nothing for others.
+std::optional<CanvasSegment> way_out(const CanvasPoint& p, double width, double height) {
+    const auto outwards = [](double v, double size) { return v <= 0 ? -size : v >= size ? size : 0; };
+    const double dx = outwards(p.x, width), dy = dx == 0 ? outwards(p.y, height) : 0;
+    if (dx == 0 && dy == 0) return std::nullopt;
+    return CanvasSegment{1, {p, {p.x + dx, p.y + dy}}};
+}
+
+/// With its ends on the border, or beyond it, prolonged: textures whose texels lie half outside have no end there.
+CanvasContour prolonged(const CanvasContour& run, double width, double height) {
+    const CanvasPoint first = run.front().p[0], last = run.back().p[static_cast<std::size_t>(run.back().degree)];
+    if (first.x == last.x && first.y == last.y) return run;
+    CanvasContour out;
+    if (const auto way = way_out(first, width, height)) out.push_back({1, {way->p[1], way->p[0]}});
+    out.insert(out.end(), run.begin(), run.end());
+    if (const auto way = way_out(last, width, height)) out.push_back(*way);
+    return out;
+}
 
 /// There and back, so that it is closed; a lone line twice, as one pair of lines would be dropped as empty.
 CanvasContour there_and_back(const CanvasContour& run) {
@@ -46,7 +67,7 @@ Result<Scene> feature_scene(const FeatureCurves& features, std::uint32_t image_w
     for (const CanvasContour& run : features.runs) {
         if (run.empty()) continue;
         segments += run.size();
-        contours.push_back(there_and_back(run));
+        contours.push_back(there_and_back(prolonged(run, features.width, features.height)));
         for (CanvasSegment& s : contours.back()) {
             for (CanvasPoint& p : s.p)
                 p = {p.x * sx, p.y * sy};

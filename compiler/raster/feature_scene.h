@@ -15,7 +15,8 @@ struct FeatureCurves {
 };
 
 /// A scene of one shape that holds every curve once, snapped and merged as a drawing's, in the direction in which it
-/// counts +1 (so that no two cancel each other: there is an edge wherever a feature is). Its extent is the image, in
+/// counts +1 (so that no two cancel each other: there is an edge wherever a feature is). Ends on the border of the image
+/// or beyond it go on away from it. Its extent is the image, in
 /// pixels. Windings and colours of this scene mean nothing: its map is read with TexelMapper::tell_faces_apart and
 /// Separation::Edges. Errors: 3001, 3002, 3004.
 Result<Scene> feature_scene(const FeatureCurves& features, std::uint32_t image_width, std::uint32_t image_height);

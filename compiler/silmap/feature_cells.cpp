@@ -89,6 +89,24 @@ void repeat_corners(SilmapCellData& c, std::uint32_t width, std::uint32_t height
     if (c.j == height) repeat(kSilmapSW, kSilmapNW), repeat(kSilmapSE, kSilmapNE);
 }
 
+/// Corners that no boundary parts are one: where a feature ends in the next cell, what it parts in this one is joined
+/// there. Then nothing of the cell depends on where its point is.
+void join_corners(SilmapCellData& c) {
+    using namespace fetex;
+    struct Side {
+        std::uint32_t link, a, b;
+    };
+    constexpr std::array<Side, 4> sides{{{kSilmapWest, kSilmapNW, kSilmapSW},
+                                         {kSilmapNorth, kSilmapNW, kSilmapNE},
+                                         {kSilmapEast, kSilmapNE, kSilmapSE},
+                                         {kSilmapSouth, kSilmapSW, kSilmapSE}}};
+    for (const Side& s : sides) {
+        if ((c.apart >> s.link & 1) != 0) continue;
+        const ResultId kept = c.faces[s.a], gone = c.faces[s.b];
+        std::ranges::replace(c.faces, gone, kept);
+    }
+}
+
 } // namespace
 
 void FaceRow::add(const TexelMap& cell) {
@@ -137,6 +155,7 @@ bool find_boundaries(SilmapCells& cells, const PlanarMap& map, std::vector<FaceR
             if (c.i == cells.width) set(fetex::kSilmapEast, (c.apart >> fetex::kSilmapWest & 1) != 0);
             if (c.j == 0) set(fetex::kSilmapNorth, (c.apart >> fetex::kSilmapSouth & 1) != 0);
             if (c.j == cells.height) set(fetex::kSilmapSouth, (c.apart >> fetex::kSilmapNorth & 1) != 0);
+            join_corners(c);
         }
     });
     return true;

@@ -126,6 +126,19 @@ TEST(SilmapFeatures, beyondTheCanvasRunOn) {
     }
 }
 
+/// So do those that end on the border, or in the half texel beyond it.
+TEST(SilmapFeatures, thatEndOnTheBorderReachIt) {
+    for (const double beyond : {0.0, 0.3}) {
+        const auto picture = featured(image_of(8, 8, [](double x, double) { return grey(x < 3.7 ? 0 : 1); }),
+                                      {polyline({{3.7, -beyond}, {3.7, 8 + beyond}})}, 0.5);
+        const SilmapBuild b = build(picture);
+        for (double y = 0.01; y < 8; y += 0.09) {
+            EXPECT_NEAR(fetex::silmap_sample(b.texture, 3.55, y).g, 0, kStep) << y;
+            EXPECT_NEAR(fetex::silmap_sample(b.texture, 3.85, y).g, 1, kStep) << y;
+        }
+    }
+}
+
 TEST(SilmapFeatures, areTheSameForAnyThreads) {
     const auto picture = featured(image_of(40, 30, [](double x, double y) { return grey(0.5 + 0.01 * x - 0.01 * y); }),
                                   {polyline({{2, 3}, {37, 11}, {20, 27}}), polyline({{5, 29}, {33, 2}})}, 1);
