@@ -8,6 +8,8 @@
 #include "compiler/fbt/fbt_builder.h"
 #include "compiler/parallel.h"
 #include "compiler/silmap/cell_fit.h"
+#include "compiler/silmap/cell_reader.h"
+#include "compiler/silmap/misfits.h"
 #include "formats/fbt_samples.h"
 
 namespace fetexc {
@@ -78,22 +80,26 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
+    std::optional<ReadCells> drawing = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
                                                   options.skip, build.report.planar);
-    if (!cells) return inconsistent();
-    const double area = static_cast<double>(cells->width) * cells->height;
-    link_cells(*cells, options.threads);
-    build.stats.wrong_area_seed = wrong_area_of(*cells) / area;
+    if (!drawing) return inconsistent();
+    SilmapCells& cells = drawing->cells;
+    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
+    if (!lost) return inconsistent();
+    link_cells(cells, options.threads);
+    const double area = static_cast<double>(cells.width) * cells.height;
+    build.stats.wrong_area_seed = wrong_area_of(cells) / area;
     if (progress) progress("silmap", 0.5);
-    const FitCounts counts = fit_points(*cells, options.cell_format, options.threads);
+    const FitCounts counts = fit_points(cells, options.cell_format, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
-    build.stats.wrong_area = wrong_area_of(*cells) / area;
-    count_cells(*cells, build.stats);
+    build.stats.wrong_area = wrong_area_of(cells) / area;
+    count_cells(cells, build.stats);
+    report_misfits(cells, *lost, build.stats, build.report.diagnostics);
     fetex::SilmapTexture& t = build.texture;
-    t.width = cells->width, t.height = cells->height;
+    t.width = cells.width, t.height = cells.height;
     t.cell_format = options.cell_format, t.sample_format = options.sample_format;
-    t.cells = packed_cells(*cells, options.cell_format);
-    t.colors = colors_of(scene, compositor, *cells, options);
+    t.cells = packed_cells(cells, options.cell_format);
+    t.colors = colors_of(scene, compositor, cells, options);
     if (options.mips) t.mips = fetex::silmap_make_mips(t);
     build.stats.gpu_bytes = fetex::silmap_gpu_bytes(t);
     return build;
