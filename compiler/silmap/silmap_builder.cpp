@@ -9,6 +9,8 @@
 #include "compiler/fbt/fbt_builder.h"
 #include "compiler/parallel.h"
 #include "compiler/silmap/cell_fit.h"
+#include "compiler/silmap/cell_reader.h"
+#include "compiler/silmap/misfits.h"
 #include "formats/fbt_samples.h"
 
 namespace fetexc {
@@ -21,20 +23,29 @@ Error inconsistent() {
             "the planar map contradicts itself; please report this file", ""};
 }
 
+/// Words of a sample.
+std::size_t words_of(const SilmapOptions& options) {
+    return fetex::fbt_sample_words(silmap_fbt_format(options.sample_format));
+}
+
+void pack(const Rgba& c, const SilmapOptions& options, std::uint32_t* words) {
+    const bool opaque = options.sample_format == SilmapSampleFormat::Rgb8;
+    const auto packed =
+        fetex::fbt_pack_sample({c.r, c.g, c.b, opaque ? 1 : c.a}, silmap_fbt_format(options.sample_format));
+    std::copy_n(packed.begin(), words_of(options), words);
+}
+
 /// In the middles of texels.
 std::vector<std::uint32_t> colors_of(const Scene& scene, const Compositor& compositor, const SilmapCells& cells,
                                      const SilmapOptions& options) {
-    const fetex::FbtSampleFormat format = silmap_fbt_format(options.sample_format);
-    const std::size_t words = fetex::fbt_sample_words(format);
+    const std::size_t words = words_of(options);
     std::vector<std::uint32_t> out(words * cells.results.size());
     parallel_for(cells.height, options.threads, [&](std::size_t j) {
         const double y = (static_cast<double>(j) + 0.5) / cells.height * scene.extent.height;
         for (std::uint32_t i = 0; i < cells.width; ++i) {
             const std::size_t k = j * cells.width + i;
             const Rgba c = compositor.color(cells.results[k], {(i + 0.5) / cells.width * scene.extent.width, y});
-            const bool opaque = options.sample_format == SilmapSampleFormat::Rgb8;
-            const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, opaque ? 1 : c.a}, format);
-            std::copy_n(packed.begin(), words, out.begin() + static_cast<std::ptrdiff_t>(words * k));
+            pack(c, options, &out[words * k]);
         }
     });
     return out;
@@ -74,7 +85,7 @@ Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options,
 }
 
 /// Everything but colours.
-void fit_cells(SilmapCells& cells, const SilmapOptions& options, SilmapBuild& build) {
+void fit_cells(SilmapCells& cells, const LostParts& lost, const SilmapOptions& options, SilmapBuild& build) {
     const double area = static_cast<double>(cells.width) * cells.height;
     link_cells(cells, options.threads);
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
@@ -82,6 +93,7 @@ void fit_cells(SilmapCells& cells, const SilmapOptions& options, SilmapBuild& bu
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
     build.stats.wrong_area = wrong_area_of(cells) / area;
     count_cells(cells, build.stats);
+    report_misfits(cells, lost, build.stats, build.report.diagnostics);
     fetex::SilmapTexture& t = build.texture;
     t.width = cells.width, t.height = cells.height;
     t.cell_format = options.cell_format, t.sample_format = options.sample_format;
@@ -91,13 +103,6 @@ void fit_cells(SilmapCells& cells, const SilmapOptions& options, SilmapBuild& bu
 void finish(const SilmapOptions& options, SilmapBuild& build) {
     if (options.mips) build.texture.mips = fetex::silmap_make_mips(build.texture);
     build.stats.gpu_bytes = fetex::silmap_gpu_bytes(build.texture);
-}
-
-void append_packed(const fetex::FbtColor& c, const SilmapOptions& options, std::vector<std::uint32_t>& out) {
-    const fetex::FbtSampleFormat format = silmap_fbt_format(options.sample_format);
-    const bool opaque = options.sample_format == SilmapSampleFormat::Rgb8;
-    const auto packed = fetex::fbt_pack_sample({c.r, c.g, c.b, opaque ? 1 : c.a}, format);
-    out.insert(out.end(), packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(fbt_sample_words(format)));
 }
 
 } // namespace
@@ -110,12 +115,15 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    std::optional<SilmapCells> cells = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
+    std::optional<ReadCells> drawing = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
                                                   options.skip, build.report.planar);
-    if (!cells) return inconsistent();
+    if (!drawing) return inconsistent();
+    SilmapCells& cells = drawing->cells;
+    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
+    if (!lost) return inconsistent();
     if (progress) progress("silmap", 0.5);
-    fit_cells(*cells, options, build);
-    build.texture.colors = colors_of(scene, compositor, *cells, options);
+    fit_cells(cells, *lost, options, build);
+    build.texture.colors = colors_of(scene, compositor, cells, options);
     finish(options, build);
     return build;
 }
@@ -134,10 +142,14 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
     std::optional<SilmapCells> cells = read_feature_cells(map.value(), picture.features, options.cell_format,
                                                           options.threads, options.skip, build.report.planar);
     if (!cells) return inconsistent();
-    fit_cells(*cells, options, build);
+    fit_cells(*cells, {}, options, build);
+    const std::size_t words = words_of(options);
+    build.texture.colors.resize(words * cells->results.size());
     for (std::uint32_t j = 0; j < cells->height; ++j) {
-        for (std::uint32_t i = 0; i < cells->width; ++i)
-            append_packed(fetex::fbt_sample_local(fbt.value().texture, i, j, 0.5, 0.5), options, build.texture.colors);
+        for (std::uint32_t i = 0; i < cells->width; ++i) {
+            const fetex::FbtColor c = fetex::fbt_sample_local(fbt.value().texture, i, j, 0.5, 0.5);
+            pack({c.r, c.g, c.b, c.a}, options, &build.texture.colors[words * (std::size_t{j} * cells->width + i)]);
+        }
     }
     finish(options, build);
     // What it has to say of the image; parts that its texels lose these may have.

@@ -9,7 +9,6 @@
 #include "compiler/compile.h"
 #include "compiler/parallel.h"
 #include "compiler/planar/planar_map.h"
-#include "compiler/silmap/feature_cells.h"
 #include "compiler/silmap/link_area.h"
 
 namespace fetexc {
@@ -32,7 +31,6 @@ struct SilmapCellData {
     std::uint32_t first_slab = 0, slabs = 0;
     std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
     std::uint32_t corners = 0;      ///< of the drawing, inside
-    std::array<float, 4> crossing{-1, -1, -1, -1}; ///< of an edge on a side that has one only, else -1
     /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
     std::array<ResultId, 4> faces{};
     std::uint32_t apart = 0;
@@ -52,23 +50,14 @@ struct SilmapCells {
     /// Of a cell without edges.
     [[nodiscard]] ResultId inside(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] fetex::SilmapBox box(const SilmapCellData& c) const;
+    /// Null: it shows and holds one result.
+    [[nodiscard]] const SilmapCellData* find(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] CellTruth truth_of(const SilmapCellData& c) const {
         return {truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c)};
     }
     /// Of what it shows: areas right by link, and the area that is wrong.
     void measure(SilmapCellData& c) const;
 };
-
-/// map: of make_cell_grid. Points are seeds (point_seed.h); links and areas aren't there yet. None: the map contradicts
-/// itself. OLD Points are where an edge turns or meets others, else on an edge.
-std::optional<SilmapCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                      fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                      PlanarStats& stats);
-
-/// The same of features over an image (feature_scene): each face of a cell is a result of its own.
-std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
-                                              fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                              PlanarStats& stats);
 
 /// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
 void link_cells(SilmapCells& cells, unsigned threads);

@@ -11,6 +11,7 @@
 #include "compiler/bilevel/coverage.h"
 #include "compiler/bilevel/scan_lines.h"
 #include "compiler/silmap/cell_fit.h"
+#include "compiler/silmap/cell_reader.h"
 #include "compiler/silmap/silmap_builder.h"
 #include "compiler/svg/svg.h"
 #include "tests/support/drawn_scene.h"
@@ -100,7 +101,7 @@ struct Fitted {
         PlanarStats stats;
         const auto map = PlanarMap::build(scene, make_cell_grid(scene.extent, texels.width, texels.height), 0, stats);
         compositor = std::make_unique<Compositor>(scene);
-        cells = *read_cells(map.value(), scene, *compositor, format, 0, {}, stats);
+        cells = read_cells(map.value(), scene, *compositor, format, 0, {}, stats)->cells;
         link_cells(cells, 0);
         fit_points(cells, format, 0);
     }
