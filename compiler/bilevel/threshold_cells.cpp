@@ -220,16 +220,17 @@ void ThresholdCells::choose_texels(const std::vector<std::uint32_t>& across_rows
 void ThresholdCells::scan(Cell& c, const ScannedOutline& scanned) {
     const ScanLines& lines = c.along_rows ? scanned.rows() : scanned.columns();
     const std::uint32_t along = c.along_rows ? c.column : c.row, across = c.along_rows ? c.row : c.column;
-    const std::uint32_t most_along = c.along_rows ? width_ : height_;
+    const std::uint32_t most_along = c.along_rows ? width_ : height_, most_across = c.along_rows ? height_ : width_;
     const bool centres = places_ == TexelPlaces::Centres;
     c.low = centres && along == 0 ? 0.5F : 0.0F, c.high = centres && along == most_along ? 0.5F : 1.0F;
     c.first_line = static_cast<std::uint32_t>(lines_.size());
     // Corners: what has no width, beyond the first and the last texel, has no lines.
     const bool nothing = !centres && (along == 0 || along == most_along);
-    const auto line_at = [&](double place) {
-        return static_cast<std::uint32_t>(std::clamp<double>(place * per_texel_, 0, lines.size()));
-    };
-    const std::uint32_t begin = line_at(across - shift()), end = nothing ? begin : line_at(across + 1 - shift());
+    const std::uint32_t half = centres ? per_texel_ / 2 : 0, before = centres ? half : per_texel_;
+    const std::uint32_t begin = across == 0 ? 0 : across * per_texel_ - before,
+                        end = nothing                            ? begin
+                              : across == most_across && centres ? most_across * per_texel_
+                                                                 : std::min(across * per_texel_ + half, lines.size());
     const double origin = along - shift(), low = origin + static_cast<double>(c.low),
                  high = origin + static_cast<double>(c.high);
     for (std::uint32_t n = begin; n < end; ++n) {
