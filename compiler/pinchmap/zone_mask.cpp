@@ -2,9 +2,9 @@
 #include "compiler/pinchmap/zone_mask.h"
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace fetexc {
@@ -35,6 +35,11 @@ bool is_valid(unsigned pattern) {
 }
 
 unsigned pattern_around(const ZoneMask& mask, std::int64_t i, std::int64_t j) {
+    if (i >= 1 && j >= 1 && i + 1 < mask.width && j + 1 < mask.height) {
+        const std::uint8_t* const middle = &mask.above[static_cast<std::size_t>(j) * mask.width + i];
+        const auto row = [](const std::uint8_t* p) { return p[-1] | unsigned{p[0]} << 1 | unsigned{p[1]} << 2; };
+        return row(middle - mask.width) | row(middle) << 3 | row(middle + mask.width) << 6;
+    }
     unsigned pattern = 0, bit = 0;
     for (std::int64_t y = j - 1; y <= j + 1; ++y) {
         for (std::int64_t x = i - 1; x <= i + 1; ++x)
@@ -43,124 +48,159 @@ unsigned pattern_around(const ZoneMask& mask, std::int64_t i, std::int64_t j) {
     return pattern;
 }
 
-/// Clusters x … x + side − 1 of each axis, to one side.
+/// A corner inside a zone that is farther on the wrong side than this counts no more, clusters.
+constexpr double kFarWrong = 1.5;
+/// What a cross is worth that isn't there: it blurs a cluster of two colours.
+constexpr double kCrossError = 0.5;
+/// Square clusters: less is not worth a move.
+constexpr double kWorthAMove = 0.1;
+
+double cluster_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
+    const std::size_t at = std::size_t{j} * mask.width + i;
+    const std::uint8_t side = mask.above[at];
+    const double wrong = side != 0 ? 1 - truth.parts[at] : truth.parts[at];
+    if (!(wrong > 0)) return 0;
+    const unsigned pattern = pattern_around(mask, i, j);
+    return pattern == 0 || pattern == 511 ? wrong : 0;
+}
+
+double corner_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
+    const double above = truth.distances[std::size_t{j} * (mask.width + 1) + i];
+    const CornerSides s = sides_around(mask, i, j);
+    if (s.cross()) return kCrossError;
+    return s.active() ? 0 : std::clamp(s.nw != 0 ? -above : above, 0.0, kFarWrong);
+}
+
+/// Clusters x … x + width − 1, y … y + height − 1, to one side.
 struct Move {
-    std::uint32_t x = 0, y = 0, side = 2;
+    std::uint32_t x = 0, y = 0, width = 2, height = 2;
     std::uint8_t above = 0;
+
+    friend auto operator<=>(const Move&, const Move&) = default;
 };
 /// The cheapest first; of equal ones the first in the map.
-using Order = std::tuple<double, std::uint32_t, std::uint32_t, std::uint8_t>;
+using Order = std::pair<double, Move>;
 
 class Enforcer {
   public:
-    Enforcer(ZoneMask& mask, std::span<const double> parts)
-        : mask_(mask), parts_(parts), listed_(2 * mask.above.size()) {}
+    Enforcer(ZoneMask& mask, const ZoneTruth& truth)
+        : mask_(mask), truth_(truth), listed_(kKinds * mask.above.size()) {}
 
     MaskMoves run() {
         for (std::uint32_t j = 0; j < mask_.height; ++j) {
             for (std::uint32_t i = 0; i < mask_.width; ++i) {
-                if (is_valid_cluster(mask_, i, j)) continue;
-                broken_.emplace(j, i);
-                list_around({i, j, 1, 0});
+                const bool valid = is_valid_cluster(mask_, i, j);
+                if (!valid) broken_.emplace(j, i);
+                if (!valid || error_around({i, j, 1, 1}) >= kWorthAMove) list_around({i, j, 1, 1}, kNear);
             }
         }
         MaskMoves out;
         out.broken = broken_.size();
-        while (!broken_.empty()) {
-            const Move move = best_.empty() ? larger_move() : first_listed();
-            out.lost += cost(move), ++out.moves;
+        while (!broken_.empty() || !best_.empty()) {
+            const Move move = best_.empty() ? larger_move() : best_.begin()->second;
+            const double before = error_around(move);
             apply(move);
+            out.lost += error_around(move) - before, ++out.moves;
         }
         return out;
     }
 
   private:
-    static constexpr std::int64_t kReach = 4; ///< a square changes what squares so far away are worth
+    static constexpr std::int64_t kReach = 5; ///< a rectangle changes what others so far away are worth
+    static constexpr std::int64_t kNear = 3;  ///< they themselves reach so far
+    static constexpr std::size_t kKinds = 8;  ///< two sides, of 2 or 3 clusters, and two colours
 
-    template <class Visit> void each(const Move& m, std::int64_t margin, const Visit& visit) const {
+    template <class Visit>
+    static void each_in(const Move& m, std::int64_t margin, std::uint32_t columns, std::uint32_t rows,
+                        const Visit& visit) {
         const auto begin = [&](std::uint32_t v) { return std::max<std::int64_t>(std::int64_t{v} - margin, 0); };
-        const auto end = [&](std::uint32_t v, std::uint32_t size) {
-            return std::min<std::int64_t>(std::int64_t{v} + m.side + margin, size);
+        const auto end = [&](std::uint32_t v, std::uint32_t side, std::uint32_t size) {
+            return std::min<std::int64_t>(std::int64_t{v} + side + margin, size);
         };
-        for (std::int64_t y = begin(m.y); y < end(m.y, mask_.height); ++y) {
-            for (std::int64_t x = begin(m.x); x < end(m.x, mask_.width); ++x)
+        for (std::int64_t y = begin(m.y); y < end(m.y, m.height, rows); ++y) {
+            for (std::int64_t x = begin(m.x); x < end(m.x, m.width, columns); ++x)
                 visit(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         }
+    }
+    template <class Visit> void each(const Move& m, std::int64_t margin, const Visit& visit) const {
+        each_in(m, margin, mask_.width, mask_.height, visit);
     }
 
     [[nodiscard]] std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * mask_.width + x; }
 
-    [[nodiscard]] double cost(const Move& m) const {
+    /// Of all that the rectangle's sides decide.
+    [[nodiscard]] double error_around(const Move& m) const {
         double sum = 0;
-        each(m, 0, [&](std::uint32_t x, std::uint32_t y) {
-            const double part = parts_[index(x, y)];
-            if (mask_.above[index(x, y)] != m.above) sum += m.above != 0 ? 1 - 2 * part : 2 * part - 1;
-        });
+        each(m, 1, [&](std::uint32_t x, std::uint32_t y) { sum += cluster_error(mask_, truth_, x, y); });
+        const Move corners{m.x, m.y, m.width + 1, m.height + 1};
+        each_in(corners, 0, mask_.width + 1, mask_.height + 1,
+                [&](std::uint32_t x, std::uint32_t y) { sum += corner_error(mask_, truth_, x, y); });
         return sum;
     }
-
     [[nodiscard]] int invalid_around(const Move& m) const {
         int count = 0;
         each(m, 1, [&](std::uint32_t x, std::uint32_t y) { count += is_valid_cluster(mask_, x, y) ? 0 : 1; });
         return count;
     }
 
-    /// Whether it leaves fewer invalid; false for one that changes nothing.
-    bool helps(const Move& m) {
-        std::vector<std::pair<std::size_t, std::uint8_t>> before;
-        each(m, 0,
-             [&](std::uint32_t x, std::uint32_t y) { before.emplace_back(index(x, y), mask_.above[index(x, y)]); });
-        if (std::ranges::none_of(before, [&](const auto& b) { return b.second != m.above; })) return false;
+    /// What it costs for each cluster that becomes valid; nothing where there are not fewer invalid ones.
+    std::optional<double> price(const Move& m) {
+        std::array<std::pair<std::size_t, std::uint8_t>, 9> few{};
+        std::vector<std::pair<std::size_t, std::uint8_t>> many;
+        const bool small = m.width <= 3 && m.height <= 3;
+        if (!small) many.resize(std::size_t{m.width} * m.height);
+        const std::span before = small ? std::span(few) : std::span(many);
+        std::size_t count = 0;
+        bool changes = false;
+        each(m, 0, [&](std::uint32_t x, std::uint32_t y) {
+            before[count++] = {index(x, y), mask_.above[index(x, y)]};
+            changes = changes || mask_.above[index(x, y)] != m.above;
+        });
+        if (!changes) return std::nullopt;
         const int now = invalid_around(m);
-        if (now == 0) return false;
-        for (const auto& [at, side] : before)
+        const double error = error_around(m);
+        if (now == 0 && error < kWorthAMove) return std::nullopt;
+        for (const auto& [at, side] : before.first(count))
             mask_.above[at] = m.above;
         const int then = invalid_around(m);
-        for (const auto& [at, side] : before)
+        const double more = then <= now ? error_around(m) - error : 0;
+        for (const auto& [at, side] : before.first(count))
             mask_.above[at] = side;
-        return then < now;
+        if (then < now) return more / (now - then);
+        return then == now && more < -kWorthAMove ? std::optional(more) : std::nullopt;
     }
 
-    void list_around(const Move& changed) {
-        each(changed, kReach, [&](std::uint32_t x, std::uint32_t y) {
-            for (const std::uint8_t above : {0, 1})
-                list({x, y, 2, above});
+    void list_around(const Move& changed, std::int64_t reach) {
+        each(changed, reach, [&](std::uint32_t x, std::uint32_t y) {
+            for (std::uint32_t kind = 0; kind < kKinds; ++kind)
+                list({x, y, 2 + (kind >> 1 & 1U), 2 + (kind >> 2), static_cast<std::uint8_t>(kind & 1U)}, kind);
         });
     }
-    void list(const Move& m) {
-        std::optional<double>& listed = listed_[2 * index(m.x, m.y) + m.above];
-        if (listed) best_.erase({*listed, m.y, m.x, m.above});
-        listed.reset();
-        if (!helps(m)) return;
-        listed = cost(m);
-        best_.insert({*listed, m.y, m.x, m.above});
-    }
-    [[nodiscard]] Move first_listed() const {
-        const auto& [cost, y, x, above] = *best_.begin();
-        return {x, y, 2, above};
+    void list(const Move& m, std::uint32_t kind) {
+        std::optional<double>& listed = listed_[kKinds * index(m.x, m.y) + kind];
+        if (listed) best_.erase({*listed, m});
+        listed = price(m);
+        if (listed) best_.insert({*listed, m});
     }
 
-    /// The cheapest of the least size that helps; as large as the map it makes all one side, which is valid.
+    /// The cheapest square of the least size that helps; as large as the map it makes all one side, which is valid.
     Move larger_move() {
-        for (std::uint32_t side = 3;; ++side) {
+        for (std::uint32_t side = 4;; ++side) {
             std::set<Order> found;
             std::set<std::pair<std::uint32_t, std::uint32_t>> places;
-            for (const auto& [j, i] : broken_) {
-                const std::uint32_t back = side; // a square that ends beside a cluster changes whether that is valid
-                for (std::uint32_t y = j - std::min(j, back); y <= std::min(j + 1, mask_.height - 1); ++y) {
-                    for (std::uint32_t x = i - std::min(i, back); x <= std::min(i + 1, mask_.width - 1); ++x)
+            for (const auto& [j, i] : broken_) { // a square that ends beside a cluster decides whether that is valid
+                for (std::uint32_t y = j - std::min(j, side); y <= std::min(j + 1, mask_.height - 1); ++y) {
+                    for (std::uint32_t x = i - std::min(i, side); x <= std::min(i + 1, mask_.width - 1); ++x)
                         places.emplace(y, x);
                 }
             }
             for (const auto& [y, x] : places) {
                 for (const std::uint8_t above : {0, 1}) {
-                    const Move m{x, y, side, above};
-                    if (helps(m)) found.insert({cost(m), y, x, above});
+                    const Move m{x, y, side, side, above};
+                    if (const std::optional<double> asks = price(m)) found.insert({*asks, m});
                 }
             }
-            if (found.empty()) continue;
-            const auto& [cost, y, x, above] = *found.begin();
-            return {x, y, side, above};
+            if (!found.empty()) return found.begin()->second;
         }
     }
 
@@ -172,19 +212,24 @@ class Enforcer {
             else
                 broken_.emplace(y, x);
         });
-        list_around(m);
+        list_around(m, kReach);
     }
 
     ZoneMask& mask_;
-    std::span<const double> parts_;
+    const ZoneTruth& truth_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> broken_; ///< row, column
-    std::set<Order> best_;                                     ///< squares of 2 × 2 that help
-    std::vector<std::optional<double>> listed_;                ///< by place and side: their costs in best_
+    std::set<Order> best_;                                     ///< rectangles that help
+    std::vector<std::optional<double>> listed_;                ///< by place and kind: their prices in best_
 };
 
 } // namespace
 
 CornerSides sides_around(const ZoneMask& mask, std::uint32_t i, std::uint32_t j) {
+    if (i >= 1 && j >= 1 && i < mask.width && j < mask.height) {
+        const std::uint8_t* const se = &mask.above[std::size_t{j} * mask.width + i];
+        const std::uint8_t* const ne = se - mask.width;
+        return {ne[-1], ne[0], se[-1], se[0]};
+    }
     const std::int64_t x = i, y = j;
     return {mask.at(x - 1, y - 1), mask.at(x, y - 1), mask.at(x - 1, y), mask.at(x, y)};
 }
@@ -199,6 +244,17 @@ bool is_valid_cluster(const ZoneMask& mask, std::uint32_t i, std::uint32_t j) {
     return is_valid(pattern_around(mask, i, j));
 }
 
-MaskMoves enforce_constraints(ZoneMask& mask, std::span<const double> parts) { return Enforcer(mask, parts).run(); }
+double unmendable(const ZoneMask& mask, const ZoneTruth& truth) {
+    double sum = 0;
+    for (std::uint32_t j = 0; j <= mask.height; ++j) {
+        for (std::uint32_t i = 0; i <= mask.width; ++i) {
+            sum += corner_error(mask, truth, i, j);
+            if (i < mask.width && j < mask.height) sum += cluster_error(mask, truth, i, j);
+        }
+    }
+    return sum;
+}
+
+MaskMoves enforce_constraints(ZoneMask& mask, const ZoneTruth& truth) { return Enforcer(mask, truth).run(); }
 
 } // namespace fetexc

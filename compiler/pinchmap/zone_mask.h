@@ -39,15 +39,31 @@ ZoneMask majority_mask(std::span<const double> parts, std::uint32_t width, std::
 /// corners that are neighbours. (Paper, §4.4; the last is SPEC's.)
 bool is_valid_cluster(const ZoneMask& mask, std::uint32_t i, std::uint32_t j);
 
+/// What the drawing has where the zones may be.
+struct ZoneTruth {
+    std::vector<double> parts; ///< of each cluster, that is above, 0 … 1
+    std::vector<double>
+        distances; ///< of each corner, 0 … width by 0 … height, from the outline, clusters; above 0: above
+};
+
+/// Square clusters, about, that no γ can mend: clusters all of whose neighbours are on their own zone's side count with
+/// their wrong part, and corners inside a zone, on whose side they aren't, with their distance (far ones no more than
+/// those at 1.5). Elsewhere a discontinuity may run up to a cluster beyond its zone (§8). Crosses count as well: they
+/// blur.
+double unmendable(const ZoneMask& mask, const ZoneTruth& truth);
+
 /// What it cost to keep the constraints.
 struct MaskMoves {
     std::uint64_t broken = 0; ///< clusters that broke one before
-    std::uint64_t moves = 0;  ///< squares of clusters that were set to one side
-    double lost = 0;          ///< clusters: by how much more of the drawing lies on the wrong side
+    std::uint64_t moves = 0;  ///< rectangles of clusters that were set to one side
+    double lost = 0;          ///< by how much more is unmendable
 };
 
-/// Sets squares of 2 × 2 clusters to one side, each time the cheapest that leaves fewer clusters invalid (§7.2), larger
-/// ones where none of those helps, until all are valid. The cost is what more of the drawing lies on the wrong side.
-MaskMoves enforce_constraints(ZoneMask& mask, std::span<const double> parts);
+/// Sets rectangles of 2 or 3 clusters a side to one side, each time the one that makes the least more unmendable for
+/// each cluster that it makes valid, larger ones where none of those helps; and those that make a tenth of a cluster
+/// less unmendable; until all are valid and none does. (The paper, §7.2, takes squares of 2 × 2 and counts all that is
+/// on the wrong side of its zone: lines thinner than a cluster then go, where a wider zone with the right γ keeps
+/// them.)
+MaskMoves enforce_constraints(ZoneMask& mask, const ZoneTruth& truth);
 
 } // namespace fetexc
