@@ -136,7 +136,9 @@ TEST(PinchmapGamma, beatsThePapersSearch) {
                     static_cast<unsigned long long>(test::wrong_pixels(pixels, ours)),
                     static_cast<unsigned long long>(found.wrong));
         EXPECT_LE(wrong, their_wrong) << name;
-        if (asked != nullptr) EXPECT_LE(time, seconds / 20) << name; // a busy machine's times say nothing
+        if (asked != nullptr) { // a busy machine says nothing about times
+            EXPECT_LE(time, seconds / 20) << name;
+        }
     }
 }
 
