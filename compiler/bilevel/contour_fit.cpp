@@ -19,14 +19,14 @@ std::array<double, 4> corner_weights(double u, double v) {
 /// The texels' values as a problem's unknowns, a block each.
 class Unknowns {
   public:
-    Unknowns(const ThresholdCells& cells, const std::vector<std::uint8_t>& values)
-        : cells_(cells), block_(std::size_t{cells.width()} * cells.height(), kNone) {
+    Unknowns(const ThresholdCells& cells, const ValueLevels& levels, const std::vector<std::uint16_t>& stored)
+        : cells_(cells), levels_(levels), block_(std::size_t{cells.width()} * cells.height(), kNone) {
         const std::uint32_t n = cells.channels();
         for (std::uint32_t k = 0; k < cells.texels().size(); ++k) {
             const std::uint32_t t = cells.texels()[k];
             block_[t] = k;
             for (std::uint32_t c = 0; c < n; ++c)
-                numbers_.push_back(values[std::size_t{t} * n + c] / 255.0);
+                numbers_.push_back(stored[std::size_t{t} * n + c] / static_cast<double>(levels.steps));
         }
     }
 
@@ -34,25 +34,25 @@ class Unknowns {
     [[nodiscard]] std::uint32_t block(std::uint32_t texel) const { return block_[texel]; }
     [[nodiscard]] bool fitted(std::uint32_t texel) const { return block_[texel] != kNone; }
 
-    /// Between 0 and 1; no residuals yet.
+    /// Within the levels, offsets left out; no residuals yet.
     [[nodiscard]] LeastSquares problem() {
         LeastSquares out;
         out.unknowns = numbers_, out.block_size = cells_.channels();
-        out.low = 0, out.high = 1;
+        out.low = levels_.low(), out.high = levels_.high();
         return out;
     }
 
-    void round_into(std::vector<std::uint8_t>& values) const {
+    void round_into(std::vector<std::uint16_t>& stored) const {
         const std::uint32_t n = cells_.channels();
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < n; ++c)
-                values[std::size_t{t} * n + c] = static_cast<std::uint8_t>(
-                    std::lround(std::clamp(numbers_[std::size_t{block_[t]} * n + c], 0.0, 1.0) * 255));
+                stored[std::size_t{t} * n + c] = levels_.nearest(numbers_[std::size_t{block_[t]} * n + c]);
         }
     }
 
   private:
     const ThresholdCells& cells_;
+    const ValueLevels& levels_;
     std::vector<std::uint32_t> block_;
     std::vector<double> numbers_;
 };
@@ -65,9 +65,11 @@ LeastSquaresOptions fit_options(int steps) {
 /// squares are Huber's loss of them, for what counts is area.
 class CrossingResiduals {
   public:
-    CrossingResiduals(const ThresholdCells& cells, const Cell& cell)
+    CrossingResiduals(const ThresholdCells& cells, const ValueLevels& levels, const Cell& cell)
         : rule_(cells.rule()), channels_(cells.channels()), along_rows_(cell.along_rows), low_(cell.low),
           high_(cell.high) {
+        std::ranges::transform(cells.corners(cell), offsets_.begin(),
+                               [&](std::uint32_t texel) { return static_cast<double>(levels.offset(texel)); });
         for (const CellLine& line : cells.lines(cell)) {
             bool above = line.above_first;
             const double weight = line.crossings > 1 ? std::sqrt(budget::kFitCrowdedWeight) : 1.0;
@@ -103,10 +105,10 @@ class CrossingResiduals {
         LineValues v;
         std::array<double, 3> from{}, to{};
         for (std::uint32_t c = 0; c < channels_; ++c) {
-            const double v10 = texels[1][c], v01 = texels[2][c];
-            const double from1 = along_rows_ ? v01 : v10, to0 = along_rows_ ? v10 : v01;
-            from[c] = texels[0][c] + (from1 - texels[0][c]) * w.across;
-            to[c] = to0 + (texels[3][c] - to0) * w.across;
+            const auto value = [&](std::size_t k) { return texels[k][c] + offsets_[k]; };
+            const double from0 = value(0), from1 = value(along_rows_ ? 2 : 1), to0 = value(along_rows_ ? 1 : 2);
+            from[c] = from0 + (from1 - from0) * w.across;
+            to[c] = to0 + (value(3) - to0) * w.across;
             v.from[c] = static_cast<float>(from[c]), v.to[c] = static_cast<float>(to[c]);
         }
         const auto [channel, at] = responsible(w, v, from, to);
@@ -158,19 +160,22 @@ class CrossingResiduals {
     std::uint32_t channels_;
     bool along_rows_;
     float low_, high_;
+    std::array<double, 4> offsets_{}; ///< of the corners
     std::vector<Wanted> wanted_;
 };
 
 /// Remembers the best rounded values, and ends the fit when they get worse.
 class Watch {
   public:
-    Watch(const ThresholdCells& cells, const Unknowns& unknowns, std::vector<std::uint8_t>& best, FitTrace& trace)
-        : cells_(cells), unknowns_(unknowns), best_(best), now_(best), trace_(trace), least_(cells.wrong_area(best)) {}
+    Watch(const ThresholdCells& cells, const ValueLevels& levels, const Unknowns& unknowns,
+          std::vector<std::uint16_t>& best, FitTrace& trace)
+        : cells_(cells), levels_(levels), unknowns_(unknowns), best_(best), now_(best), values_(best.size()),
+          trace_(trace), least_(wrong_area()) {}
 
     /// Whether to go on.
     bool operator()(int step) {
         unknowns_.round_into(now_);
-        const double area = cells_.wrong_area(now_);
+        const double area = wrong_area();
         if (step > 0) trace_.push_back(area);
         if (area < least_) {
             least_ = area, best_ = now_, worse_ = 0;
@@ -183,10 +188,18 @@ class Watch {
   private:
     static constexpr int kPatience = 3; ///< steps
 
+    double wrong_area() {
+        for (std::size_t k = 0; k < values_.size(); ++k)
+            values_[k] = levels_.value(k / cells_.channels(), now_[k]);
+        return cells_.wrong_area(values_);
+    }
+
     const ThresholdCells& cells_;
+    const ValueLevels& levels_;
     const Unknowns& unknowns_;
-    std::vector<std::uint8_t>& best_;
-    std::vector<std::uint8_t> now_;
+    std::vector<std::uint16_t>& best_;
+    std::vector<std::uint16_t> now_;
+    std::vector<float> values_; ///< of now_
     FitTrace& trace_;
     double least_;
     int worse_ = 0;
@@ -293,35 +306,50 @@ class IntersectionsAndAngles {
     Problem<LinearResidual>& problem_;
 };
 
+std::vector<std::uint16_t> widened(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+void narrow(const std::vector<std::uint16_t>& stored, std::vector<std::uint8_t>& bytes) {
+    std::ranges::transform(stored, bytes.begin(), [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+}
+
 } // namespace
 
 void fit_intersections_and_angles(const Solver& solver, const ThresholdCells& cells,
                                   std::span<const OutlineSegment> outline, std::vector<std::uint8_t>& values) {
-    Unknowns unknowns(cells, values);
+    const ValueLevels bytes;
+    std::vector<std::uint16_t> stored = widened(values);
+    Unknowns unknowns(cells, bytes, stored);
     Problem<LinearResidual> problem(unknowns);
     IntersectionsAndAngles equations(cells, unknowns, problem);
     equations.add(ScanLines(outline, cells.height(), 1, true), true);
     equations.add(ScanLines(outline, cells.width(), 1, false), false);
     problem.solve(solver, fit_options(budget::kFitPaperSteps));
-    unknowns.round_into(values);
+    unknowns.round_into(stored);
+    narrow(stored, values);
 }
 
 void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps,
                  FitTrace& trace) {
-    Unknowns unknowns(cells, values);
+    std::vector<std::uint16_t> stored = widened(values);
+    fit_contour(solver, cells, {}, stored, steps, trace);
+    narrow(stored, values);
+}
+
+void fit_contour(const Solver& solver, const ThresholdCells& cells, const ValueLevels& levels,
+                 std::vector<std::uint16_t>& stored, int steps, FitTrace& trace) {
+    Unknowns unknowns(cells, levels, stored);
     Problem<CrossingResiduals> problem(unknowns);
     for (const Cell& c : cells.cells()) {
         const CellTexels corners = cells.corners(c);
         // At the border two corners are one texel: the same block twice is not allowed, and half cells are flat there.
         if (corners[0] == corners[1] || corners[0] == corners[2]) continue;
-        CrossingResiduals residuals(cells, c);
+        CrossingResiduals residuals(cells, levels, c);
         if (residuals.size() == 0) continue;
         std::array<std::uint32_t, 4> blocks{};
         std::ranges::transform(corners, blocks.begin(), [&](std::uint32_t texel) { return unknowns.block(texel); });
         const std::uint32_t numbers = residuals.size();
         problem.add(std::move(residuals), blocks, numbers);
     }
-    Watch watch(cells, unknowns, values, trace);
+    Watch watch(cells, levels, unknowns, stored, trace);
     LeastSquaresOptions options = fit_options(steps);
     options.goes_on = [&](int step) { return watch(step); };
     problem.solve(solver, options);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/bilevel/threshold_cells.h"
+#include "compiler/bilevel/value_levels.h"
 #include "compiler/solver/solver.h"
 
 namespace fetexc {
@@ -27,5 +28,9 @@ void fit_intersections_and_angles(const Solver& solver, const ThresholdCells& ce
 /// `steps` of them; `values` gets the best. Any rule.
 void fit_contour(const Solver& solver, const ThresholdCells& cells, std::vector<std::uint8_t>& values, int steps,
                  FitTrace& trace);
+
+/// The same of numbers stored otherwise.
+void fit_contour(const Solver& solver, const ThresholdCells& cells, const ValueLevels& levels,
+                 std::vector<std::uint16_t>& stored, int steps, FitTrace& trace);
 
 } // namespace fetexc

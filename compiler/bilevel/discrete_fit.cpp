@@ -14,14 +14,17 @@ constexpr int kFirstGrey = 112, kLastGrey = 143;
 
 class ByteFit {
   public:
-    ByteFit(const ThresholdCells& cells, std::vector<std::uint8_t>& values, MidGreys greys)
-        : cells_(cells), values_(values), greys_(greys), number_(std::size_t{cells.width()} * cells.height(), kNone) {
+    ByteFit(const ThresholdCells& cells, std::vector<std::uint16_t>& stored, const StoredLevels& levels)
+        : cells_(cells), stored_(stored), levels_(levels), grain_(levels.levels.grain), values_(stored.size()),
+          number_(std::size_t{cells.width()} * cells.height(), kNone) {
         for (const std::uint32_t t : cells.texels())
             number_[t] = count_++;
         bytes_.resize(std::size_t{count_} * cells.channels());
-        if (greys_ == MidGreys::Avoid) leave_greys();
+        if (levels_.greys == MidGreys::Avoid) leave_greys();
+        for (std::size_t k = 0; k < stored_.size(); ++k)
+            values_[k] = levels_.levels.value(k / cells.channels(), stored_[k]);
         for (const Cell& c : cells.cells())
-            areas_.push_back(cells.wrong_area_in(values, c));
+            areas_.push_back(cells.wrong_area_in(values_, c));
     }
 
     [[nodiscard]] double wrong_area() const {
@@ -58,9 +61,9 @@ class ByteFit {
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < cells_.channels(); ++c) {
                 const Place p = place(t, c);
-                const int away = values_[p.value] < 128 ? -1 : 1;
+                const int away = values_[p.value] < 0.5F ? -grain_ : grain_;
                 for (int step = kLargestStep; step > 0; step /= 4) {
-                    while (move(p.cells, values_[p.value], away * step, budget::kWorthAByte)) {
+                    while (move(p, away * step, budget::kWorthAByte)) {
                     }
                 }
             }
@@ -75,12 +78,18 @@ class ByteFit {
         bool open = true; ///< may still change
         bool pairs_open = true;
     };
-    static constexpr int kFirstStep = 4, kLargestStep = 64;
+    static constexpr int kFirstStep = 4, kLargestStep = 64; ///< in grains
+    /// Of a byte.
+    struct Place {
+        std::uint32_t texel, channel;
+        std::size_t byte, value; ///< in bytes_ and steps_; in stored_ and values_
+        CellsAround cells;
+    };
 
     void leave_greys() {
         for (const std::uint32_t t : cells_.texels()) {
             for (std::uint32_t c = 0; c < cells_.channels(); ++c) {
-                std::uint8_t& v = values_[std::size_t{t} * cells_.channels() + c];
+                std::uint16_t& v = stored_[std::size_t{t} * cells_.channels() + c];
                 if (v >= kFirstGrey && v <= kLastGrey) v = v < 128 ? kFirstGrey - 1 : kLastGrey + 1;
             }
         }
@@ -98,24 +107,29 @@ class ByteFit {
         return change;
     }
 
+    void set(const Place& p, std::uint16_t stored) {
+        stored_[p.value] = stored, values_[p.value] = levels_.levels.value(p.texel, stored);
+    }
+
     /// Moves a byte if that changes the wrong area in the cells around it by less than `most`.
-    bool move(const CellsAround& around, std::uint8_t& v, int by, double most) {
-        const std::uint8_t before = v;
-        v = moved(v, by, greys_);
-        if (v == before) return false;
+    bool move(const Place& p, int by, double most) {
+        const CellsAround& around = p.cells;
+        const std::uint16_t before = stored_[p.value], to = levels_.moved(before, by);
+        if (to == before) return false;
+        set(p, to);
         ++tried;
         std::array<double, 4> area;
         double change = 0;
         for (std::size_t k = 0; k < around.size(); ++k) {
             if (!(least_change(change, around, k) < most)) {
-                v = before;
+                set(p, before);
                 return false;
             }
             area[k] = area_in(around[k]);
             change += area[k] - areas_[around[k]];
         }
         if (!(change < most)) {
-            v = before;
+            set(p, before);
             return false;
         }
         for (std::size_t k = 0; k < around.size(); ++k)
@@ -124,9 +138,9 @@ class ByteFit {
     }
 
     /// Goes on in the direction as long as it helps.
-    bool descend(const CellsAround& around, std::uint8_t& v, int by) {
+    bool descend(const Place& p, int by) {
         bool any = false;
-        while (move(around, v, by, -budget::kWorthAByte))
+        while (move(p, by * grain_, -budget::kWorthAByte))
             any = true;
         return any;
     }
@@ -135,12 +149,11 @@ class ByteFit {
     bool visit(std::uint32_t texel, std::uint32_t channel) {
         Byte& byte = bytes_[std::size_t{number_[texel]} * cells_.channels() + channel];
         if (!byte.open) return false;
-        const CellsAround around = cells_.around(texel);
+        const Place here = place(texel, channel);
         double area = 0;
-        for (const std::uint32_t c : around)
+        for (const std::uint32_t c : here.cells)
             area += areas_[c];
-        std::uint8_t& v = values_[std::size_t{texel} * cells_.channels() + channel];
-        if (area > 0 && (descend(around, v, byte.step) || descend(around, v, -byte.step))) {
+        if (area > 0 && (descend(here, byte.step) || descend(here, -byte.step))) {
             byte.step = static_cast<std::int16_t>(std::min(kLargestStep, 2 * byte.step));
             open_around(texel, channel);
             return true;
@@ -152,12 +165,6 @@ class ByteFit {
 
     struct Neighbour {
         int i, j;
-    };
-    /// Of a byte.
-    struct Place {
-        std::uint32_t texel, channel;
-        std::size_t byte, value; ///< in bytes_ and steps_; in values_
-        CellsAround cells;
     };
     struct Steps {
         std::array<std::array<double, 4>, 2> area{}; ///< down, up; in the cells around
@@ -192,15 +199,15 @@ class ByteFit {
     const Steps& steps_of(const Place& p) {
         Steps& out = steps_[p.byte];
         if (out.known) return out;
-        std::uint8_t& v = values_[p.value];
-        const std::uint8_t before = v;
+        const std::uint16_t before = stored_[p.value];
         for (std::size_t up = 0; up < 2; ++up) {
-            v = moved(before, up == 0 ? -1 : 1, greys_);
+            const std::uint16_t v = levels_.moved(before, up == 0 ? -grain_ : grain_);
+            set(p, v);
             for (std::size_t k = 0; k < p.cells.size(); ++k)
                 out.area[up][k] = v == before ? areas_[p.cells[k]] : area_in(p.cells[k]);
             tried += v == before ? 0 : 1;
         }
-        v = before, out.known = true;
+        set(p, before), out.known = true;
         return out;
     }
 
@@ -230,9 +237,9 @@ class ByteFit {
         for (const std::uint32_t c : a.cells)
             shared += std::ranges::find(b.cells, c) != b.cells.end() ? areas_[c] : 0;
         if (!(change - shared < -budget::kWorthAByte)) return false;
-        std::uint8_t &va = values_[a.value], &vb = values_[b.value];
-        const std::uint8_t before_a = va, before_b = vb;
-        va = moved(va, up_a == 0 ? -1 : 1, greys_), vb = moved(vb, up_b == 0 ? -1 : 1, greys_);
+        const std::uint16_t before_a = stored_[a.value], before_b = stored_[b.value];
+        set(a, levels_.moved(before_a, up_a == 0 ? -grain_ : grain_));
+        set(b, levels_.moved(before_b, up_b == 0 ? -grain_ : grain_));
         ++tried;
         for (const std::uint32_t c : a.cells) {
             if (std::ranges::find(b.cells, c) == b.cells.end()) continue;
@@ -240,7 +247,7 @@ class ByteFit {
             change += after[count - 1].second - areas_[c];
         }
         if (!(change < -budget::kWorthAByte)) {
-            va = before_a, vb = before_b;
+            set(a, before_a), set(b, before_b);
             return false;
         }
         for (std::size_t k = 0; k < count; ++k)
@@ -266,8 +273,10 @@ class ByteFit {
     }
 
     const ThresholdCells& cells_;
-    std::vector<std::uint8_t>& values_;
-    MidGreys greys_;
+    std::vector<std::uint16_t>& stored_;
+    const StoredLevels& levels_;
+    int grain_;
+    std::vector<float> values_; ///< of stored_
     std::vector<std::uint32_t> number_;
     std::uint32_t count_ = 0;
     std::vector<Byte> bytes_;
@@ -277,15 +286,20 @@ class ByteFit {
 
 } // namespace
 
-std::uint8_t moved(std::uint8_t v, int by, MidGreys greys) {
-    int to = std::clamp(v + by, 0, 255);
+std::uint16_t StoredLevels::moved(std::uint16_t v, int by) const {
+    const int least = levels.least, most = levels.most;
+    int to = std::clamp(v + by, least, most);
     if (greys == MidGreys::Avoid && to >= kFirstGrey && to <= kLastGrey) to = by > 0 ? kLastGrey + 1 : kFirstGrey - 1;
-    return static_cast<std::uint8_t>(to);
+    return static_cast<std::uint16_t>(to);
 }
 
-std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& values, MidGreys greys,
-                        ByteSweeps sweeps, FitTrace& trace) {
-    ByteFit fit(cells, values, greys);
+std::uint8_t moved(std::uint8_t v, int by, MidGreys greys) {
+    return static_cast<std::uint8_t>(StoredLevels{{}, greys}.moved(v, by));
+}
+
+std::uint64_t fit_stored(const ThresholdCells& cells, std::vector<std::uint16_t>& stored, const StoredLevels& levels,
+                         ByteSweeps sweeps, FitTrace& trace) {
+    ByteFit fit(cells, stored, levels);
     bool busy = !cells.texels().empty();
     for (int k = 0, pairs = 0; k < sweeps.most && busy; ++k) {
         busy = fit.sweep();
@@ -297,6 +311,14 @@ std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& 
         trace.push_back(fit.wrong_area());
     }
     return fit.tried;
+}
+
+std::uint64_t fit_bytes(const ThresholdCells& cells, std::vector<std::uint8_t>& values, MidGreys greys,
+                        ByteSweeps sweeps, FitTrace& trace) {
+    std::vector<std::uint16_t> stored(values.begin(), values.end());
+    const std::uint64_t tried = fit_stored(cells, stored, {{}, greys}, sweeps, trace);
+    std::ranges::transform(stored, values.begin(), [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
+    return tried;
 }
 
 } // namespace fetexc

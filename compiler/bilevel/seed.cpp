@@ -257,23 +257,29 @@ std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outlin
     return ChannelAssigner(chains, rule).assign();
 }
 
-std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const ScannedOutline& scanned,
-                                      std::span<const OutlineSegment> outline, double reach, double window) {
+std::vector<std::uint16_t> seed_stored(const ThresholdCells& cells, const ScannedOutline& scanned,
+                                       std::span<const OutlineSegment> outline, double reach, double window,
+                                       const ValueLevels& levels) {
     const std::uint32_t channels = std::min(cells.channels(), 3U), width = cells.width(), height = cells.height();
     const std::vector<std::uint8_t> sets = assign_channels(outline, cells.rule(), window);
     const Chains chains(outline, window);
     const double search = budget::kSeedSearch;
     const SegmentBuckets buckets(outline, width, height, search + 0.5); // half a texel to its centre
-    std::vector<std::uint8_t> values(std::size_t{width} * height * channels);
+    std::vector<std::uint16_t> values(std::size_t{width} * height * channels);
+    const double place = cells.first_place(), half = levels.steps / 2.0;
+    const auto stored = [&](std::uint32_t texel, double v) { // in steps
+        const double own = v - static_cast<double>(levels.offset(texel)) * levels.steps;
+        return static_cast<std::uint16_t>(std::lround(std::clamp<double>(own, levels.least, levels.most)));
+    };
     for (std::uint32_t j = 0; j < height; ++j) {
         for (std::uint32_t i = 0; i < width; ++i) {
-            const std::uint8_t flat = scanned.above(i + 0.5, j + 0.5) ? 255 : 0;
-            std::fill_n(values.begin() + static_cast<std::ptrdiff_t>((std::size_t{j} * width + i) * channels), channels,
-                        flat);
+            const std::uint32_t texel = j * width + i;
+            const std::uint16_t flat = stored(texel, scanned.above(i + place, j + place) ? levels.steps : 0);
+            std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(std::size_t{texel} * channels), channels, flat);
         }
     }
     for (const std::uint32_t texel : cells.texels()) {
-        const double x = texel % width + 0.5, y = texel / width + 0.5;
+        const double x = texel % width + place, y = texel / width + place;
         std::array<Nearest, 3> nearest;
         for (const std::uint32_t k : buckets.near(texel)) {
             const Nearest n = nearest_on(outline[k], k, x, y);
@@ -285,11 +291,11 @@ std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const Scanned
         if (std::ranges::none_of(nearest, is_near)) continue;
         for (std::uint32_t c = 0; c < channels; ++c) {
             const Nearest& n = nearest[c];
-            std::uint8_t& value = values[std::size_t{texel} * channels + c];
+            std::uint16_t& value = values[std::size_t{texel} * channels + c];
             if (!is_near(n)) {
                 // Nothing of this channel is near: out of the others' way.
-                if (cells.rule() == BilevelRule::Min) value = 255;
-                if (cells.rule() == BilevelRule::Max) value = 0;
+                if (cells.rule() == BilevelRule::Min) value = stored(texel, levels.steps);
+                if (cells.rule() == BilevelRule::Max) value = stored(texel, 0);
                 continue;
             }
             const std::uint32_t beyond = n.t < 0   ? chains.previous[n.segment]
@@ -298,9 +304,17 @@ std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const Scanned
             const bool prolonged = beyond == kNone || sets[beyond] != sets[n.segment];
             const double distance =
                 beyond == n.segment || prolonged ? n.signed_line : std::copysign(std::sqrt(n.square), n.signed_line);
-            value = static_cast<std::uint8_t>(std::lround(std::clamp(127.5 + 127.5 * distance / reach, 0.0, 255.0)));
+            value = stored(texel, half + half * distance / reach);
         }
     }
+    return values;
+}
+
+std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const ScannedOutline& scanned,
+                                      std::span<const OutlineSegment> outline, double reach, double window) {
+    const std::vector<std::uint16_t> stored = seed_stored(cells, scanned, outline, reach, window, {});
+    std::vector<std::uint8_t> values(stored.size());
+    std::ranges::transform(stored, values.begin(), [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
     return values;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/bilevel/threshold_cells.h"
+#include "compiler/bilevel/value_levels.h"
 
 namespace fetexc {
 
@@ -25,5 +26,10 @@ std::vector<std::uint8_t> assign_channels(std::span<const OutlineSegment> outlin
 /// the run's ends, 1/2 on it, 0 and 1 at the reach; rounded to bytes. All texels of the texture.
 std::vector<std::uint8_t> seed_values(const ThresholdCells& cells, const ScannedOutline& scanned,
                                       std::span<const OutlineSegment> outline, double reach, double window);
+
+/// The same, stored otherwise and wherever the texels stand.
+std::vector<std::uint16_t> seed_stored(const ThresholdCells& cells, const ScannedOutline& scanned,
+                                       std::span<const OutlineSegment> outline, double reach, double window,
+                                       const ValueLevels& levels);
 
 } // namespace fetexc

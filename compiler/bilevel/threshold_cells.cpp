@@ -40,14 +40,15 @@ float disagreement(bool first_a, std::span<const float> a, bool first_b, std::sp
     return differ ? sum + (high - at) : sum;
 }
 
-template <BilevelRule Rule>
-LineValues line_values(std::span<const std::uint8_t> values, const CellTexels& t, bool along_rows, float across) {
+float value_of(std::uint8_t stored) { return static_cast<float>(stored) * (1.0F / 255); }
+float value_of(float value) { return value; }
+
+template <BilevelRule Rule, class Stored>
+LineValues line_values(std::span<const Stored> values, const CellTexels& t, bool along_rows, float across) {
     constexpr std::uint32_t n = kChannels<Rule>;
     LineValues out;
     for (std::uint32_t c = 0; c < n; ++c) {
-        const auto value = [&](std::size_t corner) {
-            return static_cast<float>(values[std::size_t{t[corner]} * n + c]) * (1.0F / 255);
-        };
+        const auto value = [&](std::size_t corner) { return value_of(values[std::size_t{t[corner]} * n + c]); };
         const float v00 = value(0), v10 = value(1), v01 = value(2), v11 = value(3);
         const float from1 = along_rows ? v01 : v10, to0 = along_rows ? v10 : v01;
         out.from[c] = v00 + (from1 - v00) * across;
@@ -116,15 +117,13 @@ TextureCrossings texture_crossings(BilevelRule rule, const LineValues& v, float 
     }
 }
 
-template <BilevelRule Rule>
-double ThresholdCells::wrong_area_of(std::span<const std::uint8_t> values, const Cell& c) const {
+template <BilevelRule Rule, class Stored>
+double ThresholdCells::wrong_area_of(std::span<const Stored> values, const Cell& c) const {
     constexpr std::uint32_t n = kChannels<Rule>;
     const CellTexels corners = this->corners(c);
     std::array<float, n> from0, from1, to0, to1; // at a channel's line 0 and line 1
     for (std::uint32_t k = 0; k < n; ++k) {
-        const auto value = [&](std::size_t corner) {
-            return static_cast<float>(values[std::size_t{corners[corner]} * n + k]) * (1.0F / 255);
-        };
+        const auto value = [&](std::size_t corner) { return value_of(values[std::size_t{corners[corner]} * n + k]); };
         from0[k] = value(0), from1[k] = value(c.along_rows ? 2 : 1);
         to0[k] = value(c.along_rows ? 1 : 2), to1[k] = value(3);
     }
@@ -155,7 +154,7 @@ double ThresholdCells::wrong_area_of(std::span<const std::uint8_t> values, const
     for (const std::uint32_t k : std::span(thin_).subspan(c.first_thin, c.thin)) {
         const CellLine& line = lines_[k];
         const TextureCrossings t =
-            crossings_of<Rule>(line_values<Rule>(values, corners, c.along_rows, line.across), c.low, c.high);
+            crossings_of<Rule>(line_values<Rule, Stored>(values, corners, c.along_rows, line.across), c.low, c.high);
         total += disagreement(t.above_first, std::span(t.at).first(t.count), line.above_first, crossings(line), c.low,
                               c.high);
     }
@@ -163,31 +162,32 @@ double ThresholdCells::wrong_area_of(std::span<const std::uint8_t> values, const
 }
 
 ThresholdCells::ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height,
-                               BilevelRule rule)
-    : width_(width), height_(height), per_texel_(scanned.rows().per_texel()), rule_(rule),
+                               BilevelRule rule, TexelPlaces places, std::span<const std::uint8_t> also)
+    : width_(width), height_(height), per_texel_(scanned.rows().per_texel()), rule_(rule), places_(places),
       channels_(fetex::bilevel_channels(rule)) {
     const std::size_t columns = std::size_t{width} + 1;
     std::vector<std::uint32_t> across_rows(columns * (height + 1), 0), across_columns(across_rows);
     const auto count = [&](const ScanLines& lines, bool level, std::vector<std::uint32_t>& in) {
-        const std::uint32_t most = level ? width : height;
+        const std::uint32_t most = squares(level ? width : height);
         for (std::uint32_t n = 0; n < lines.size(); ++n) {
-            const auto across = static_cast<std::size_t>(lines.position(n) + 0.5);
+            const auto across = static_cast<std::size_t>(lines.position(n) + shift());
             for (const Crossing& c : lines.crossings(n)) {
                 if (c.at < 0 || c.at > most) continue;
-                const auto along = static_cast<std::size_t>(c.at + 0.5);
+                const auto along = std::min<std::size_t>(static_cast<std::size_t>(c.at + shift()), most);
                 ++in[level ? across * columns + along : along * columns + across];
             }
         }
     };
     count(scanned.rows(), true, across_rows);
     count(scanned.columns(), false, across_columns);
-    choose_texels(across_rows, across_columns);
+    choose_texels(across_rows, across_columns, also);
     for (Cell& c : cells_)
         scan(c, scanned);
 }
 
 void ThresholdCells::choose_texels(const std::vector<std::uint32_t>& across_rows,
-                                   const std::vector<std::uint32_t>& across_columns) {
+                                   const std::vector<std::uint32_t>& across_columns,
+                                   std::span<const std::uint8_t> also) {
     std::vector<std::uint8_t> chosen(std::size_t{width_} * height_, 0);
     cell_at_.assign(across_rows.size(), kNone);
     const auto each = [&](const auto& visit) {
@@ -197,8 +197,11 @@ void ThresholdCells::choose_texels(const std::vector<std::uint32_t>& across_rows
         }
     };
     each([&](const Cell& c, std::size_t k) {
-        if (across_rows[k] + across_columns[k] == 0) return;
-        for (const std::uint32_t t : corners(c))
+        const CellTexels around = corners(c);
+        const bool touched =
+            !also.empty() && std::ranges::any_of(around, [&](std::uint32_t t) { return also[t] != 0; });
+        if (across_rows[k] + across_columns[k] == 0 && !touched) return;
+        for (const std::uint32_t t : around)
             chosen[t] = 1;
     });
     for (std::uint32_t t = 0; t < chosen.size(); ++t) {
@@ -218,16 +221,21 @@ void ThresholdCells::scan(Cell& c, const ScannedOutline& scanned) {
     const ScanLines& lines = c.along_rows ? scanned.rows() : scanned.columns();
     const std::uint32_t along = c.along_rows ? c.column : c.row, across = c.along_rows ? c.row : c.column;
     const std::uint32_t most_along = c.along_rows ? width_ : height_, most_across = c.along_rows ? height_ : width_;
-    c.low = along == 0 ? 0.5F : 0.0F, c.high = along == most_along ? 0.5F : 1.0F;
+    const bool centres = places_ == TexelPlaces::Centres;
+    c.low = centres && along == 0 ? 0.5F : 0.0F, c.high = centres && along == most_along ? 0.5F : 1.0F;
     c.first_line = static_cast<std::uint32_t>(lines_.size());
-    const std::uint32_t half = per_texel_ / 2;
-    const std::uint32_t begin = across == 0 ? 0 : across * per_texel_ - half,
-                        end = across == most_across ? most_across * per_texel_ : across * per_texel_ + half;
-    const double origin = along - 0.5, low = origin + static_cast<double>(c.low),
+    // Corners: what has no width, beyond the first and the last texel, has no lines.
+    const bool nothing = !centres && (along == 0 || along == most_along);
+    const std::uint32_t half = centres ? per_texel_ / 2 : 0, before = centres ? half : per_texel_;
+    const std::uint32_t begin = across == 0 ? 0 : across * per_texel_ - before,
+                        end = nothing                            ? begin
+                              : across == most_across && centres ? most_across * per_texel_
+                                                                 : std::min(across * per_texel_ + half, lines.size());
+    const double origin = along - shift(), low = origin + static_cast<double>(c.low),
                  high = origin + static_cast<double>(c.high);
     for (std::uint32_t n = begin; n < end; ++n) {
         CellLine line;
-        line.across = static_cast<float>(lines.position(n) - (across - 0.5));
+        line.across = static_cast<float>(lines.position(n) - (across - shift()));
         line.above_first = scanned.above_at_start(c.along_rows, n);
         line.first = static_cast<std::uint32_t>(crossings_.size());
         for (const Crossing& x : lines.crossings(n)) {
@@ -269,7 +277,7 @@ CellTexels ThresholdCells::corners(const Cell& c) const {
     return {j0 * width_ + i0, j0 * width_ + i1, j1 * width_ + i0, j1 * width_ + i1};
 }
 
-double ThresholdCells::wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const {
+template <class Stored> double ThresholdCells::wrong_area_by_rule(std::span<const Stored> values, const Cell& c) const {
     switch (rule_) {
     case BilevelRule::Min:
         return wrong_area_of<BilevelRule::Min>(values, c);
@@ -282,7 +290,20 @@ double ThresholdCells::wrong_area_in(std::span<const std::uint8_t> values, const
     }
 }
 
+double ThresholdCells::wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const {
+    return wrong_area_by_rule(values, c);
+}
+double ThresholdCells::wrong_area_in(std::span<const float> values, const Cell& c) const {
+    return wrong_area_by_rule(values, c);
+}
+
 double ThresholdCells::wrong_area(std::span<const std::uint8_t> values) const {
+    double sum = 0;
+    for (const Cell& c : cells_)
+        sum += wrong_area_in(values, c);
+    return sum;
+}
+double ThresholdCells::wrong_area(std::span<const float> values) const {
     double sum = 0;
     for (const Cell& c : cells_)
         sum += wrong_area_in(values, c);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// How much of the canvas a bi-level texture gets wrong, exactly along scan lines, and where.
+/// How much of the canvas a texture that is cut at one half gets wrong, exactly along scan lines, and where.
 ///
-/// A *cell* lies between four texel centres (at the border: a centre and the border); there the texture is bilinear, so
-/// linear along a scan line: where it crosses one half is known, and so is the length on which it and the outline
-/// disagree. Each cell is scanned along rows or along columns, whichever the outline in it crosses more often.
+/// Texels stand in the middles of squares of the canvas (bi-level textures), or at their corners, from border to border
+/// (pinchmaps, one more along each side). A *cell* lies between four of them (of the first kind at the border: a texel
+/// and the border); there the texture is bilinear, so linear along a scan line: where it crosses one half is known, and
+/// so is the length on which it and the outline disagree. Each cell is scanned along rows or along columns, whichever
+/// the outline in it crosses more often.
 #pragma once
 
 #include <array>
@@ -27,7 +29,7 @@ struct CellLine {
 };
 
 struct Cell {
-    std::uint32_t column = 0, row = 0; ///< between the centres of texels column − 1 and column, row − 1 and row
+    std::uint32_t column = 0, row = 0; ///< between texels column − 1 and column, row − 1 and row
     bool along_rows = true;
     float low = 0, high = 1; ///< of the lines: 1/2 where the cell is half a cell
     std::uint32_t first_line = 0, lines = 0;
@@ -44,18 +46,31 @@ struct LineValues {
     std::array<float, 3> from{}, to{};
 };
 
-/// Cells around a texel's centre. Those of a cell's texels are all there.
+/// Where texels stand on the canvas.
+enum class TexelPlaces : std::uint8_t {
+    Centres, ///< texel i at i + 1/2, of a canvas as many squares wide
+    Corners, ///< texel i at i, of a canvas one square less wide
+};
+
+/// Cells around a texel. Those of a cell's texels are all there.
 using CellsAround = std::array<std::uint32_t, 4>;
 
 class ThresholdCells {
   public:
-    ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height, fetex::BilevelRule rule);
+    ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height, fetex::BilevelRule rule)
+        : ThresholdCells(scanned, width, height, rule, TexelPlaces::Centres, {}) {}
+    /// width, height: texels. also: texels (1) whose values matter wherever the outline is; empty: none.
+    ThresholdCells(const ScannedOutline& scanned, std::uint32_t width, std::uint32_t height, fetex::BilevelRule rule,
+                   TexelPlaces places, std::span<const std::uint8_t> also);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
     [[nodiscard]] fetex::BilevelRule rule() const { return rule_; }
     [[nodiscard]] std::uint32_t channels() const { return channels_; }
-    /// Texels at corners of cells that hold some of the outline; ascending. No other's value matters.
+    /// Where texel 0 stands along each axis.
+    [[nodiscard]] double first_place() const { return places_ == TexelPlaces::Centres ? 0.5 : 0; }
+    /// Texels at corners of cells that hold some of the outline or touch one of `also`; ascending. No other's value
+    /// matters.
     [[nodiscard]] std::span<const std::uint32_t> texels() const { return texels_; }
     /// Cells with such a texel.
     [[nodiscard]] std::span<const Cell> cells() const { return cells_; }
@@ -75,18 +90,29 @@ class ThresholdCells {
 
     /// Square texels on which the texture and the outline disagree. values: channels() bytes a texel of the texture.
     [[nodiscard]] double wrong_area(std::span<const std::uint8_t> values) const;
+    [[nodiscard]] double wrong_area(std::span<const float> values) const;
     /// The same in a cell.
     [[nodiscard]] double wrong_area_in(std::span<const std::uint8_t> values, const Cell& c) const;
+    [[nodiscard]] double wrong_area_in(std::span<const float> values, const Cell& c) const;
 
   private:
-    void choose_texels(const std::vector<std::uint32_t>& across_rows, const std::vector<std::uint32_t>& across_columns);
+    /// Between the border of a cell and the texel before it, which has its number less 1.
+    [[nodiscard]] double shift() const { return 1 - first_place(); }
+    [[nodiscard]] std::uint32_t squares(std::uint32_t texels) const {
+        return places_ == TexelPlaces::Centres ? texels : texels - 1;
+    }
+    void choose_texels(const std::vector<std::uint32_t>& across_rows, const std::vector<std::uint32_t>& across_columns,
+                       std::span<const std::uint8_t> also);
     void scan(Cell& c, const ScannedOutline& scanned);
     void add_blocks(Cell& c);
-    template <fetex::BilevelRule Rule>
-    [[nodiscard]] double wrong_area_of(std::span<const std::uint8_t> values, const Cell& c) const;
+    template <fetex::BilevelRule Rule, class Stored>
+    [[nodiscard]] double wrong_area_of(std::span<const Stored> values, const Cell& c) const;
+    template <class Stored>
+    [[nodiscard]] double wrong_area_by_rule(std::span<const Stored> values, const Cell& c) const;
 
     std::uint32_t width_, height_, per_texel_;
     fetex::BilevelRule rule_;
+    TexelPlaces places_;
     std::uint32_t channels_;
     std::vector<std::uint32_t> texels_;
     std::vector<Cell> cells_;
