@@ -115,7 +115,7 @@ FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, unsigne
 double wrong_area_of(const SilmapCells& cells) {
     double sum = 0;
     for (const SilmapCellData& c : cells.cells)
-        sum += c.wrong;
+        sum += c.joined ? 0 : c.wrong;
     return sum;
 }
 

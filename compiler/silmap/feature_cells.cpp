@@ -103,6 +103,7 @@ void join_corners(SilmapCellData& c) {
     for (const Side& s : sides) {
         if ((c.apart >> s.link & 1) != 0) continue;
         const ResultId kept = c.faces[s.a], gone = c.faces[s.b];
+        c.joined = c.joined || kept != gone;
         std::ranges::replace(c.faces, gone, kept);
     }
 }

@@ -41,7 +41,7 @@ void report_misfits(const SilmapCells& cells, const LostParts& lost, SilmapStats
                     std::vector<Diagnostic>& diagnostics) {
     const SilmapCellData* worst = nullptr;
     for (const SilmapCellData& c : cells.cells) {
-        if (c.wrong < budget::kSilmapCrowded || !holds_too_much(c)) continue;
+        if (c.joined || c.wrong < budget::kSilmapCrowded || !holds_too_much(c)) continue;
         ++stats.cells_crowded;
         if (worst == nullptr || c.wrong > worst->wrong) worst = &c;
     }

@@ -34,6 +34,7 @@ struct SilmapCellData {
     /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
     std::array<ResultId, 4> faces{};
     std::uint32_t apart = 0;
+    bool joined = false; ///< of features: faces that are one around a feature's end: what shows of which isn't wrong
 };
 
 struct SilmapCells {
