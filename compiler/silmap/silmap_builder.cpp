@@ -90,10 +90,12 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const double area = static_cast<double>(cells.width) * cells.height;
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
     if (progress) progress("silmap", 0.5);
-    const FitCounts counts = fit_points(cells, options.cell_format, options.threads);
+    count_cells(cells, build.stats);
+    const bool thorough = options.effort == SilmapEffort::Thorough ||
+                          (options.effort == SilmapEffort::Auto && build.stats.cells_edge <= kSilmapThoroughCells);
+    const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
     build.stats.wrong_area = wrong_area_of(cells) / area;
-    count_cells(cells, build.stats);
     report_misfits(cells, *lost, build.stats, build.report.diagnostics);
     fetex::SilmapTexture& t = build.texture;
     t.width = cells.width, t.height = cells.height;

@@ -103,7 +103,7 @@ struct Fitted {
         compositor = std::make_unique<Compositor>(scene);
         cells = read_cells(map.value(), scene, *compositor, format, 0, {}, stats)->cells;
         link_cells(cells, 0);
-        fit_points(cells, format, 0);
+        fit_points(cells, format, true, 0);
     }
 
     /// What a cell's point at another place would take away, of the cell and its neighbours.
