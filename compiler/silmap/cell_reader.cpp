@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "compiler/error_budget.h"
 #include "compiler/silmap/point_seed.h"
 
 namespace fetexc {
@@ -17,9 +16,9 @@ void place(SilmapCellData& c, std::uint32_t x, std::uint32_t y, fetex::SilmapCel
 class RowReader {
   public:
     RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
-              const SkipRules& skip, SilmapCells& out, PartsRow& parts)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip),
-          reader_(map, budget::kSilmapChord / fetex::silmap_steps(format)), format_(format), out_(out), parts_(parts) {}
+              double chord, const SkipRules& skip, SilmapCells& out, PartsRow& parts)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), format_(format), out_(out),
+          parts_(parts) {}
 
     /// False: the map contradicts itself.
     bool read(std::uint32_t j, std::vector<SilmapCellData>& cells) {
@@ -116,9 +115,18 @@ std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j
 
 } // namespace
 
+std::uint64_t cells_with_edges(const PlanarMap& map) {
+    std::uint64_t n = 0;
+    for (std::uint32_t j = 0; j < map.grid().height; ++j) {
+        for (std::uint32_t i = 0; i < map.grid().width; ++i)
+            n += map.sub_edges(i, j).empty() ? 0 : 1;
+    }
+    return n;
+}
+
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                    PlanarStats& stats) {
+                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    const SkipRules& skip, PlanarStats& stats) {
     ReadCells read;
     SilmapCells& out = read.cells;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
@@ -132,7 +140,7 @@ std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Co
     for (std::uint32_t j = 0; j < rows; ++j)
         read.parts.emplace_back(map, j);
     parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, format, skip, out, read.parts[j]);
+        RowReader reader(map, scene, compositor, format, chord, skip, out, read.parts[j]);
         good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
         row_stats[j] = reader.stats();
     });

@@ -66,6 +66,11 @@ void count_cells(const SilmapCells& cells, SilmapStats& stats) {
     }
 }
 
+/// What chords may miss edges by: as with cells of 8 bits where points are only settled.
+double chord_of(fetex::SilmapCellFormat format, bool thorough) {
+    return budget::kSilmapChord / fetex::silmap_steps(thorough ? format : fetex::SilmapCellFormat::Bits8);
+}
+
 } // namespace
 
 Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& options, const ProgressSink& progress) {
@@ -80,8 +85,12 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    std::optional<ReadCells> drawing = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
-                                                  options.skip, build.report.planar);
+    const bool thorough =
+        options.effort == SilmapEffort::Thorough ||
+        (options.effort == SilmapEffort::Auto && cells_with_edges(map.value()) <= kSilmapThoroughCells);
+    std::optional<ReadCells> drawing =
+        read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, thorough),
+                   options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
     const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
@@ -91,8 +100,6 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
     if (progress) progress("silmap", 0.5);
     count_cells(cells, build.stats);
-    const bool thorough = options.effort == SilmapEffort::Thorough ||
-                          (options.effort == SilmapEffort::Auto && build.stats.cells_edge <= kSilmapThoroughCells);
     const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
     build.stats.wrong_area = wrong_area_of(cells) / area;
