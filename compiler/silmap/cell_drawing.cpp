@@ -6,11 +6,15 @@
 #include <cmath>
 
 #include "compiler/error_budget.h"
+#include "compiler/silmap/small_sort.h"
 
 namespace fetexc {
 namespace {
 
 using fetex::SilmapPoint;
+
+/// In cells: neither tiny nor huge.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 struct Polygon {
     int degree = 1;
@@ -39,8 +43,8 @@ struct Polygon {
     [[nodiscard]] SilmapPoint direction(bool from_end) const {
         const auto at = [&](int k) -> const SilmapPoint& { return p[from_end ? degree - k : k]; };
         for (int k = 1; k <= degree; ++k) {
-            const double dx = at(k).x - at(0).x, dy = at(k).y - at(0).y, length = std::hypot(dx, dy);
-            if (length > 0) return {dx / length, dy / length};
+            const double dx = at(k).x - at(0).x, dy = at(k).y - at(0).y, size = length(dx, dy);
+            if (size > 0) return {dx / size, dy / size};
         }
         return {};
     }
@@ -90,7 +94,7 @@ void CellReader::add_edge(const TexelMap& cell, const Portion& portion, CellDraw
 
 /// Of the ends of visible edges, node by node.
 void CellReader::find_corners(const TexelMap& cell, CellDrawing& out) {
-    std::stable_sort(ends_.begin(), ends_.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.node < b.node; });
+    small_sort(ends_, [](const EdgeEnd& a, const EdgeEnd& b) { return a.node < b.node; });
     for (std::size_t k = 0; k < ends_.size();) {
         const std::size_t first = k;
         while (k < ends_.size() && ends_[k].node == ends_[first].node)

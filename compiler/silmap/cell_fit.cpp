@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "compiler/error_budget.h"
 #include "compiler/silmap/point_moves.h"
 
 namespace fetexc {
@@ -17,7 +16,7 @@ std::uint32_t class_of(const SilmapCellData& c) { return (c.i + 2 * c.j) % kClas
 
 /// Part of all wrong area: a cell that has more, with its neighbours, is looked at closely.
 constexpr double kHeavy = 1.0 / 256;
-constexpr int kMostRounds = 32, kHeavyRounds = 4;
+constexpr int kSettleRounds = 2, kMostRounds = 32, kHeavyRounds = 4;
 
 /// Steps of a walk's strides, from the first on.
 std::span<const std::int64_t> strides_of(fetex::SilmapCellFormat format) {
@@ -35,18 +34,31 @@ class PointFit {
         }
     }
 
-    FitCounts run() {
-        bool moved = sweep(strides_of(format_));
+    FitCounts run(bool thorough) {
+        const auto strides = strides_of(format_);
+        const auto settle = [&](PointMoves& m, std::uint32_t k) { return m.settle(k, strides); };
+        for (int round = 0; round < kSettleRounds && sweep(settle); ++round)
+            ;
+        if (!thorough) return counts_;
+        std::ranges::fill(dirty_, std::uint8_t{1});
+        bool moved = sweep([&](PointMoves& m, std::uint32_t k) {
+            double won = 0;
+            for (const std::int64_t stride : strides)
+                won += m.walk(k, stride);
+            return won;
+        });
         for (int round = 1; round < kMostRounds && moved; ++round)
-            moved = sweep(strides_of(format_).last(1));
+            moved = sweep(kWalk);
         for (int round = 0; round < kHeavyRounds && search_heavy(); ++round)
             ;
         return counts_;
     }
 
   private:
-    /// Walks from the points of cells whose surroundings have changed.
-    bool sweep(std::span<const std::int64_t> strides) {
+    static constexpr auto kWalk = [](PointMoves& m, std::uint32_t k) { return m.walk(k, 1); };
+
+    /// The points of cells whose surroundings have changed. move: what it has won.
+    template <class Move> bool sweep(const Move& move) {
         constexpr std::size_t chunk = 64;
         bool moved = false;
         ++counts_.rounds;
@@ -54,15 +66,12 @@ class PointFit {
             const std::size_t chunks = (members.size() + chunk - 1) / chunk;
             std::vector<std::uint64_t> tried(chunks), moves(chunks);
             parallel_for(chunks, threads_, [&](std::size_t n) {
-                PointMoves walker(cells_, format_);
+                PointMoves mover(cells_, format_);
                 for (std::size_t k = n * chunk; k < std::min(members.size(), (n + 1) * chunk); ++k) {
                     if (std::atomic_ref(dirty_[members[k]]).exchange(0, std::memory_order_relaxed) == 0) continue;
-                    double gain = 0;
-                    for (const std::int64_t stride : strides)
-                        gain += walker.walk(members[k], stride);
-                    if (gain > 0) mark_around(members[k]), ++moves[n];
+                    if (move(mover, members[k]) > 0) mark_around(members[k]), ++moves[n];
                 }
-                tried[n] = walker.tried();
+                tried[n] = mover.tried();
             });
             for (std::size_t n = 0; n < chunks; ++n)
                 counts_.positions += tried[n], moved = moved || moves[n] > 0;
@@ -82,7 +91,7 @@ class PointFit {
             }
         }
         counts_.positions += searcher.tried();
-        for (int round = 0; round < kMostRounds && moved && sweep(strides_of(format_).last(1)); ++round)
+        for (int round = 0; round < kMostRounds && moved && sweep(kWalk); ++round)
             ;
         return moved;
     }
@@ -108,8 +117,8 @@ class PointFit {
 
 } // namespace
 
-FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, unsigned threads) {
-    return PointFit(cells, format, threads).run();
+FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, bool thorough, unsigned threads) {
+    return PointFit(cells, format, threads).run(thorough);
 }
 
 double wrong_area_of(const SilmapCells& cells) {

@@ -11,9 +11,9 @@ struct FitCounts {
     std::uint64_t rounds = 0, positions = 0;
 };
 
-/// Moves points from step to step while that lowers the wrong area of the cell and its neighbours. Same result for any
-/// thread count.
-FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, unsigned threads);
+/// Moves points from step to step where that lowers the wrong area of the cell and its neighbours; thorough: until no
+/// step does, and beyond that where one cell weighs. Same result for any thread count.
+FitCounts fit_points(SilmapCells& cells, fetex::SilmapCellFormat format, bool thorough, unsigned threads);
 
 /// Of all cells, square texels.
 double wrong_area_of(const SilmapCells& cells);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "compiler/error_budget.h"
 #include "compiler/silmap/point_seed.h"
 
 namespace fetexc {
@@ -36,9 +35,9 @@ struct RowNotes {
 class RowReader {
   public:
     RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
-              const SkipRules& skip, const RowNotes& notes, SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip),
-          reader_(map, budget::kSilmapChord / fetex::silmap_steps(format)), format_(format), notes_(notes), out_(out) {
+              double chord, const SkipRules& skip, const RowNotes& notes, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), format_(format), notes_(notes),
+          out_(out) {
         if (notes_.faces != nullptr) mapper_.tell_faces_apart();
     }
 
@@ -142,8 +141,8 @@ std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j
 /// notes(j): of a row.
 template <class Notes>
 std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                    const Notes& notes, PlanarStats& stats) {
+                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    const SkipRules& skip, const Notes& notes, PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
     out.results.resize(std::size_t{out.width} * out.height);
@@ -154,7 +153,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     std::vector<PlanarStats> row_stats(rows);
     std::vector<char> good(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, format, skip, notes(j), out);
+        RowReader reader(map, scene, compositor, format, chord, skip, notes(j), out);
         good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
         row_stats[j] = reader.stats();
     });
@@ -174,27 +173,36 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
 
 } // namespace
 
+std::uint64_t cells_with_edges(const PlanarMap& map) {
+    std::uint64_t n = 0;
+    for (std::uint32_t j = 0; j < map.grid().height; ++j) {
+        for (std::uint32_t i = 0; i < map.grid().width; ++i)
+            n += map.sub_edges(i, j).empty() ? 0 : 1;
+    }
+    return n;
+}
+
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                    PlanarStats& stats) {
+                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    const SkipRules& skip, PlanarStats& stats) {
     std::vector<PartsRow> parts;
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         parts.emplace_back(map, j);
     const auto notes = [&](std::size_t j) { return RowNotes{&parts[j], nullptr}; };
-    auto cells = read_all(map, scene, compositor, format, threads, skip, notes, stats);
+    auto cells = read_all(map, scene, compositor, format, chord, threads, skip, notes, stats);
     if (!cells) return std::nullopt;
     return ReadCells{std::move(*cells), std::move(parts)};
 }
 
 std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
-                                              fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                              PlanarStats& stats) {
+                                              fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                              const SkipRules& skip, PlanarStats& stats) {
     Compositor unasked(features, skip);
     std::vector<FaceRow> faces;
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         faces.emplace_back(map, j);
     const auto notes = [&](std::size_t j) { return RowNotes{nullptr, &faces[j]}; };
-    auto out = read_all(map, features, unasked, format, threads, skip, notes, stats);
+    auto out = read_all(map, features, unasked, format, chord, threads, skip, notes, stats);
     if (!out) return out;
     out->of_features = true;
     if (!find_boundaries(*out, map, faces, threads)) return std::nullopt;

@@ -11,20 +11,23 @@
 
 namespace fetexc {
 
+/// Cells with edges, visible or not.
+std::uint64_t cells_with_edges(const PlanarMap& map);
+
 struct ReadCells {
     SilmapCells cells;
     std::vector<PartsRow> parts; ///< by row
 };
 
 /// map: of make_cell_grid. Points are seeds (point_seed.h); corners, links and areas aren't there yet (link_cells).
-/// None: the map contradicts itself.
+/// chord: cells; what chords may miss edges by. None: the map contradicts itself.
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                    PlanarStats& stats);
+                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    const SkipRules& skip, PlanarStats& stats);
 
 /// The same of features over an image (feature_scene): each face of a cell is a result of its own.
 std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
-                                              fetex::SilmapCellFormat format, unsigned threads, const SkipRules& skip,
-                                              PlanarStats& stats);
+                                              fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                              const SkipRules& skip, PlanarStats& stats);
 
 } // namespace fetexc

@@ -2,32 +2,28 @@
 #include "compiler/silmap/cell_truth.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+
+#include "compiler/silmap/small_sort.h"
 
 namespace fetexc {
-namespace {
+void TruthBuilder::add_chord(const CellChord& c) {
+    if (c.y0 < c.y1) chords_.push_back({c.x0, c.y0, c.y1, (c.x1 - c.x0) / (c.y1 - c.y0), c.left, c.right});
+}
 
-double x_at(const CellChord& c, double y) { return c.x0 + (c.x1 - c.x0) * ((y - c.y0) / (c.y1 - c.y0)); }
-
-} // namespace
-
-/// What isn't level, cut where it crosses the box's sides, so that every chord lies on one side of each.
+/// What isn't level, cut where it crosses the box's side inside the cell, so that every chord lies on one side of it.
 void TruthBuilder::cut(const CellDrawing& drawing, const fetex::SilmapBox& box) {
     chords_.clear();
+    const double side = box.x0 > 0 ? box.x0 : box.x1;
     for (CellChord c : drawing.chords) {
-        if (!(c.y0 < c.y1)) continue;
-        for (const double side : {box.x0, box.x1}) {
-            if (side <= 0 || side >= 1 || (c.x0 - side) * (c.x1 - side) >= 0) continue;
-            // The rest may cross the other side: the box is half a cell, the sides are met in the order along c or not
-            // at all.
+        if (side < 1 && (c.x0 - side) * (c.x1 - side) < 0) {
             const double y = std::clamp(c.y0 + (c.y1 - c.y0) * ((side - c.x0) / (c.x1 - c.x0)), c.y0, c.y1);
-            CellChord head = c;
-            head.x1 = side, head.y1 = y;
+            add_chord({c.x0, c.y0, side, y, c.left, c.right});
             c.x0 = side, c.y0 = y;
-            if (head.y0 < head.y1) chords_.push_back(head);
         }
-        if (c.y0 < c.y1) chords_.push_back(c);
+        add_chord(c);
     }
+    small_sort(chords_, [](const Chord& a, const Chord& b) { return a.y0 < b.y0; });
 }
 
 void TruthBuilder::list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box) {
@@ -35,12 +31,12 @@ void TruthBuilder::list_levels(const CellDrawing& drawing, const fetex::SilmapBo
     const auto add = [&](double y) {
         if (box.y0 < y && y < box.y1) levels_.push_back(y);
     };
-    for (const CellChord& c : chords_)
+    for (const Chord& c : chords_)
         add(c.y0), add(c.y1);
     for (const CellChord& c : drawing.chords) {
         if (c.y0 == c.y1) add(c.y0);
     }
-    std::sort(levels_.begin(), levels_.end());
+    small_sort(levels_, std::less());
     levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
     upright_ = levels_.size() > kMostLevels;
     if (!upright_) return;
@@ -53,15 +49,11 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
                             TruthSlabs& out) {
     const double middle = (y0 + y1) / 2;
     crossings_.clear();
-    for (const CellChord& c : chords_) {
-        if (!(c.y0 <= middle && middle < c.y1)) continue;
-        Crossing x{x_at(c, middle), 0, 0, &c};
-        x.top = upright_ ? x.middle : x_at(c, std::max(y0, c.y0)),
-        x.bottom = upright_ ? x.middle : x_at(c, std::min(y1, c.y1));
-        crossings_.push_back(x);
+    for (const Chord& c : chords_) {
+        if (c.y0 > middle) break;
+        if (middle < c.y1) crossings_.push_back({c.at(middle), &c});
     }
-    std::stable_sort(crossings_.begin(), crossings_.end(),
-                     [](const Crossing& a, const Crossing& b) { return a.middle < b.middle; });
+    small_sort(crossings_, [](const Crossing& a, const Crossing& b) { return a.middle < b.middle; });
     TruthSlab slab{y0, y1, 1 / (y1 - y0), 0, static_cast<std::uint32_t>(out.lines.size()), 0};
     if (!crossings_.empty()) {
         slab.left = crossings_.front().chord->left;
@@ -79,7 +71,10 @@ void TruthBuilder::add_slab(const CellDrawing& drawing, const fetex::SilmapBox& 
         }
         if (x.chord->right == so_far) continue;
         so_far = x.chord->right;
-        out.lines.push_back({x.top, x.bottom - x.top, so_far});
+        if (upright_)
+            out.lines.push_back({x.middle, 0, so_far});
+        else
+            out.lines.push_back({x.chord->at(y0), x.chord->slope * (y1 - y0), so_far});
     }
     slab.lines = static_cast<std::uint32_t>(out.lines.size()) - slab.first;
     out.slabs.push_back(slab);

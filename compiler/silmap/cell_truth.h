@@ -46,11 +46,17 @@ class TruthBuilder {
     void list_levels(const CellDrawing& drawing, const fetex::SilmapBox& box);
     void add_slab(const CellDrawing& drawing, const fetex::SilmapBox& box, double y0, double y1, TruthSlabs& out);
 
-    struct Crossing {
-        double middle = 0, top = 0, bottom = 0;
-        const CellChord* chord = nullptr;
+    struct Chord {
+        double x0 = 0, y0 = 0, y1 = 0, slope = 0; ///< slope: dx/dy
+        ResultId left = 0, right = 0;
+        [[nodiscard]] double at(double y) const { return x0 + slope * (y - y0); }
     };
-    std::vector<CellChord> chords_;
+    struct Crossing {
+        double middle = 0;
+        const Chord* chord = nullptr;
+    };
+    void add_chord(const CellChord& c);
+    std::vector<Chord> chords_; ///< by y0
     std::vector<double> levels_;
     std::vector<Crossing> crossings_;
     bool upright_ = false;

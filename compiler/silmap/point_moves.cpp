@@ -83,8 +83,7 @@ bool PointMoves::try_at(const SilmapCellData& c, std::int64_t x, std::int64_t y,
     if (x < 0 || y < 0 || x >= steps_ || y >= steps_ || (x == c.x && y == c.y)) return false;
     Trial trial;
     trial.x = x, trial.y = y;
-    trial.point = {fetex::silmap_position(format_, static_cast<std::uint32_t>(x)),
-                   fetex::silmap_position(format_, static_cast<std::uint32_t>(y))};
+    trial.point = place(x, y);
     ++tried_;
     evaluate(c, best.gain, trial);
     if (!(trial.gain > best.gain)) return false;
@@ -109,14 +108,14 @@ void PointMoves::accept(SilmapCellData& c, const Trial& t) {
 
 /// Of what is won by the point's place, up to a factor, from a few points along each link: the region that lies there
 /// should be on its own side of the link.
-SilmapPoint PointMoves::gradient(const SilmapCellData& c) const {
+SilmapPoint PointMoves::gradient(const SilmapCellData& c, const SilmapPoint& p) const {
     constexpr std::array<double, 4> parts{0.125, 0.375, 0.625, 0.875}; // of the way to the other point
     const CellTruth own = cells_.truth_of(c);
     SilmapPoint sum{0, 0};
     for (std::uint32_t link = 0; link < 4; ++link) {
         const std::uint32_t neighbour = c.neighbours[link];
         if (neighbour == kNone) continue;
-        const SilmapPoint &p = c.shown.point, across = point_across(cells_, c, p, link);
+        const SilmapPoint across = point_across(cells_, c, p, link);
         const double dx = across.x - p.x, dy = across.y - p.y;
         const auto [right, left] = beside(link, c.shown.corners);
         double balance = 0;
@@ -139,7 +138,7 @@ double PointMoves::walk(std::uint32_t cell, std::int64_t stride) {
     double won = 0;
     Step came{0, 0};
     for (;;) {
-        const SilmapPoint g = gradient(c);
+        const SilmapPoint g = gradient(c, c.shown.point);
         if (g.x == 0 && g.y == 0) return won;
         const std::size_t ahead = octant(g);
         Trial best;
@@ -155,6 +154,39 @@ double PointMoves::walk(std::uint32_t cell, std::int64_t stride) {
         came = {(best.x - c.x) / stride, (best.y - c.y) / stride};
         accept(c, best);
     }
+}
+
+double PointMoves::settle_once(SilmapCellData& c, std::span<const std::int64_t> strides) {
+    const SilmapPoint g = gradient(c, c.shown.point);
+    if (g.x == 0 && g.y == 0) return 0;
+    const Step& ahead = kSteps[octant(g)];
+    const auto goes_on = [&](std::int64_t x, std::int64_t y) {
+        if (x < 0 || y < 0 || x >= steps_ || y >= steps_) return false;
+        const SilmapPoint there = gradient(c, place(x, y));
+        return there.x * static_cast<double>(ahead.x) + there.y * static_cast<double>(ahead.y) > 0;
+    };
+    std::int64_t x = c.x, y = c.y;
+    for (const std::int64_t stride : strides) {
+        while (goes_on(x + stride * ahead.x, y + stride * ahead.y))
+            x += stride * ahead.x, y += stride * ahead.y;
+    }
+    Trial best;
+    best.gain = budget::kSilmapWorthAMove;
+    try_at(c, x, y, best);
+    try_at(c, x + ahead.x, y + ahead.y, best);
+    if (best.x < 0) return 0;
+    accept(c, best);
+    return best.gain;
+}
+
+double PointMoves::settle(std::uint32_t cell, std::span<const std::int64_t> strides) {
+    constexpr double worth_settling = 0.1, worth_another = 0.01; // square cells
+    constexpr int most = 3;
+    if (wrong_around(cell) < worth_settling) return 0;
+    double won = 0, last = worth_another;
+    for (int k = 0; k < most && last >= worth_another; ++k)
+        won += last = settle_once(cells_.cells[cell], strides);
+    return won;
 }
 
 double PointMoves::search(std::uint32_t cell, std::span<const std::int64_t> strides) {

@@ -15,6 +15,10 @@ class PointMoves {
     /// From place to place a stride away, where the most is won, until nothing is. Looks ahead only, where edges lie on
     /// one side of the links. Returns what was won, square cells.
     double walk(std::uint32_t cell, std::int64_t stride);
+    /// Straight ahead to where edges lie evenly on both sides of the links, by strides, if that wins anything, and once
+    /// more while it wins much: of each way the two places at its end are tried. Half of what walk() wins, in a tenth
+    /// of the time. Cells that have little wrong area, with their neighbours, stay as they are.
+    double settle(std::uint32_t cell, std::span<const std::int64_t> strides);
     /// The best of all places whose steps are multiples of the first stride, walked from with the others.
     double search(std::uint32_t cell, std::span<const std::int64_t> strides);
     /// Of the cell and its neighbours.
@@ -29,10 +33,15 @@ class PointMoves {
         std::array<double, 4> neighbour_exit{}, neighbour_right{}; ///< of the neighbour there, its link back
         double gain = 0;
     };
+    double settle_once(SilmapCellData& c, std::span<const std::int64_t> strides);
     bool try_at(const SilmapCellData& c, std::int64_t x, std::int64_t y, Trial& best);
     void evaluate(const SilmapCellData& c, double bar, Trial& t) const;
     void accept(SilmapCellData& c, const Trial& t);
-    [[nodiscard]] fetex::SilmapPoint gradient(const SilmapCellData& c) const;
+    [[nodiscard]] fetex::SilmapPoint gradient(const SilmapCellData& c, const fetex::SilmapPoint& p) const;
+    [[nodiscard]] fetex::SilmapPoint place(std::int64_t x, std::int64_t y) const {
+        return {fetex::silmap_position(format_, static_cast<std::uint32_t>(x)),
+                fetex::silmap_position(format_, static_cast<std::uint32_t>(y))};
+    }
 
     SilmapCells& cells_;
     fetex::SilmapCellFormat format_;

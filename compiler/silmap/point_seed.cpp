@@ -16,7 +16,7 @@ constexpr double kOut = 9.0 / 4, kStepWeight = 0.1;
 SilmapPoint middle_of(const std::vector<CellChord>& chords) {
     double x = 0, y = 0, sum = 0;
     for (const CellChord& c : chords) {
-        const double length = std::hypot(c.x1 - c.x0, c.y1 - c.y0);
+        const double dx = c.x1 - c.x0, dy = c.y1 - c.y0, length = std::sqrt(dx * dx + dy * dy);
         x += length * (c.x0 + c.x1) / 2, y += length * (c.y0 + c.y1) / 2, sum += length;
     }
     return sum > 0 ? SilmapPoint{x / sum, y / sum} : SilmapPoint{chords.front().x0, chords.front().y0};

@@ -85,11 +85,12 @@ Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options,
 }
 
 /// Everything but colours.
-void fit_cells(SilmapCells& cells, const LostParts& lost, const SilmapOptions& options, SilmapBuild& build) {
+void fit_cells(SilmapCells& cells, const LostParts& lost, const SilmapOptions& options, bool thorough,
+               SilmapBuild& build) {
     const double area = static_cast<double>(cells.width) * cells.height;
     link_cells(cells, options.threads);
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
-    const FitCounts counts = fit_points(cells, options.cell_format, options.threads);
+    const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
     build.stats.wrong_area = wrong_area_of(cells) / area;
     count_cells(cells, build.stats);
@@ -105,6 +106,16 @@ void finish(const SilmapOptions& options, SilmapBuild& build) {
     build.stats.gpu_bytes = fetex::silmap_gpu_bytes(build.texture);
 }
 
+bool is_thorough(const SilmapOptions& options, const PlanarMap& map) {
+    return options.effort == SilmapEffort::Thorough ||
+           (options.effort == SilmapEffort::Auto && cells_with_edges(map) <= kSilmapThoroughCells);
+}
+
+/// What chords may miss edges by: as with cells of 8 bits where points are only settled.
+double chord_of(fetex::SilmapCellFormat format, bool thorough) {
+    return budget::kSilmapChord / fetex::silmap_steps(thorough ? format : fetex::SilmapCellFormat::Bits8);
+}
+
 } // namespace
 
 Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& options, const ProgressSink& progress) {
@@ -115,14 +126,16 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    std::optional<ReadCells> drawing = read_cells(map.value(), scene, compositor, options.cell_format, options.threads,
-                                                  options.skip, build.report.planar);
+    const bool thorough = is_thorough(options, map.value());
+    std::optional<ReadCells> drawing =
+        read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, thorough),
+                   options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
     const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
     if (!lost) return inconsistent();
     if (progress) progress("silmap", 0.5);
-    fit_cells(cells, *lost, options, build);
+    fit_cells(cells, *lost, options, thorough, build);
     build.texture.colors = colors_of(scene, compositor, cells, options);
     finish(options, build);
     return build;
@@ -139,10 +152,12 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
     if (progress) progress("silmap", 0);
     const Result<PlanarMap> map = map_of_cells(picture.features, options, build.report);
     if (!map) return map.error();
-    std::optional<SilmapCells> cells = read_feature_cells(map.value(), picture.features, options.cell_format,
-                                                          options.threads, options.skip, build.report.planar);
+    const bool thorough = is_thorough(options, map.value());
+    std::optional<SilmapCells> cells =
+        read_feature_cells(map.value(), picture.features, options.cell_format, chord_of(options.cell_format, thorough),
+                           options.threads, options.skip, build.report.planar);
     if (!cells) return inconsistent();
-    fit_cells(*cells, {}, options, build);
+    fit_cells(*cells, {}, options, thorough, build);
     const std::size_t words = words_of(options);
     build.texture.colors.resize(words * cells->results.size());
     for (std::uint32_t j = 0; j < cells->height; ++j) {

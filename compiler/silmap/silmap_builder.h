@@ -10,6 +10,11 @@
 
 namespace fetexc {
 
+/// Auto: thorough up to kSilmapThoroughCells cells with edges. Of crowded pictures, quick leaves a fifth more wrong
+/// area, and thorough takes twice as long with cells of 8 bits, four times with 16.
+enum class SilmapEffort : std::uint8_t { Auto, Quick, Thorough };
+inline constexpr std::uint64_t kSilmapThoroughCells = 4096;
+
 struct SilmapOptions {
     GridSize size; ///< texels; either side 0: by aspect
     fetex::SilmapCellFormat cell_format = fetex::SilmapCellFormat::Bits8;
@@ -17,6 +22,7 @@ struct SilmapOptions {
     bool mips = false;
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
     SkipRules skip = {};  ///< nor do these
+    SilmapEffort effort = SilmapEffort::Auto;
 };
 
 /// Deterministic: no times in here.
