@@ -78,7 +78,7 @@ inline constexpr int kPlanarInconsistent = 4001;   ///< an internal invariant of
 inline constexpr int kTooManyIntersections = 4002; ///< limit on arrangement size exceeded
 inline constexpr int kSliversCollapsed = 4101;     ///< parts of the picture, everywhere thinner than the output grid, were left out (count)
 
-// Representations (owner: compiler/fbt, compiler/bilevel, compiler/silmap)
+// Representations (owner: compiler/fbt, compiler/bilevel, compiler/silmap, compiler/pinchmap)
 inline constexpr int kSizeOutOfRange = 5001; ///< --size outside 1 … 16384 texels
 inline constexpr int kFbtTooLarge = 5002;    ///< more records than the format can address
 inline constexpr int kFbtBudget = 5003;      ///< no size fits in --max-bytes
@@ -86,11 +86,16 @@ inline constexpr int kNotTwoColors = 5011;   ///< a bi-level texture of a drawin
 inline constexpr int kNoSuchElement = 5012;  ///< --silhouette names an element that isn't drawn
 inline constexpr int kSilmapBudget = 5021;   ///< no size of a silhouette-map texture fits in --max-bytes
 inline constexpr int kSilmapErrorUnmet = 5022; ///< no size of a silhouette-map texture has as little wrong area as asked for
+inline constexpr int kPinchmapBudget = 5031;     ///< no size of a pinchmap fits in --max-bytes
+inline constexpr int kPinchmapErrorUnmet = 5032; ///< no size of a pinchmap has as little wrong area as asked for
 inline constexpr int kBilevelPartsLost = 5101;  ///< parts of a silhouette that its texture doesn't show: thinner than its texels (count)
 inline constexpr int kBilevelPartsFalse = 5102; ///< parts that a bi-level texture shows and the silhouette hasn't (count)
 inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette whose colours vary: what they bound is above or below as a whole, by the mean along its edges (count)
 inline constexpr int kSilmapCellsCrowded = 5121; ///< cells of a silhouette map that hold more than a point and its four links can show (count)
 inline constexpr int kSilmapPartsLost = 5122;    ///< parts of the picture that no texel of a silhouette-map texture has: thinner than its texels (count)
+inline constexpr int kPinchmapPartsLost = 5131;    ///< parts of the drawing that a pinchmap can't hold: too thin or too crowded for its clusters, they are blurred (area)
+inline constexpr int kPinchmapCrosses = 5132;      ///< crossings of edges that a pinchmap blurs (count)
+inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges between colours that lie in one zone of a pinchmap: they are blurred (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

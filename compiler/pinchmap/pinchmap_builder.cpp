@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/pinchmap/pinchmap_builder.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "compiler/diagnostics.h"
+#include "compiler/pinchmap/pinch_frame.h"
+#include "compiler/pinchmap/pinchmap_sizes.h"
+#include "compiler/pinchmap/soft_edges.h"
+#include "compiler/pinchmap/two_zones.h"
+#include "compiler/pinchmap/zone_truth.h"
+#include "formats/validate.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::PinchmapTexel;
+using fetex::PinchmapTexture;
+
+bool out_of_range(const PinchmapOptions& o) {
+    return o.size.width < 1 || o.size.height < 1 || o.scale > fetex::kPinchmapMaxScale ||
+           (std::uint64_t{std::max(o.size.width, o.size.height)} << o.scale) > fetex::kPinchmapMaxSide;
+}
+
+std::string place_text(double u, double v) {
+    char text[64];
+    std::snprintf(text, sizeof text, "u,v %.4f,%.4f", u, v);
+    return text;
+}
+
+void warn(PinchmapBuild& build, int code, const std::string& message) {
+    build.diagnostics.push_back({Severity::Warning, code, message, ""});
+}
+
+void warn_of_losses(const SignalFit& signal, PinchmapBuild& build) {
+    if (signal.lost == 0) return;
+    char part[32];
+    std::snprintf(part, sizeof part, "%.1f", signal.lost * 1e6);
+    warn(build, diag::kPinchmapPartsLost,
+         std::string(part) + " ppm of the drawing are too thin or too crowded for the map, and blurred; some are at " +
+             place_text(signal.lost_u, signal.lost_v));
+}
+
+void warn_of_crosses(const std::vector<PinchmapTexel>& map, const PinchmapOptions& options, PinchmapBuild& build) {
+    const std::size_t columns = std::size_t{options.size.width} + 1;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < map.size(); ++k) {
+        if (map[k].k != 0) continue;
+        ++build.stats.active;
+        if (map[k].du == 0 && map[k].dv == 0 && build.stats.crosses++ == 0) first = k;
+    }
+    if (build.stats.crosses == 0) return;
+    warn(build, diag::kPinchmapCrosses,
+         std::to_string(build.stats.crosses) + " crossings of edges are blurred; one is at " +
+             place_text(static_cast<double>(first % columns) / options.size.width,
+                        static_cast<double>(first / columns) / options.size.height));
+}
+
+/// Map texels, from zones and γ.
+std::vector<PinchmapTexel> fit_map(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
+                                   PinchmapBuild& build) {
+    const auto [width, height] = options.size;
+    const ZoneTruth truth = zone_truth(silhouette, width, height);
+    ZoneMask mask = majority_mask(truth.parts, width, height);
+    build.stats.zones = enforce_constraints(mask, truth);
+    std::vector<PinchmapTexel> map = pinch_frame(mask);
+    build.stats.gamma = fit_gamma(solver, {silhouette, width, height, options.map_format, options.threads}, map);
+    build.stats.wrong_area = build.stats.gamma.wrong;
+    warn_of_crosses(map, options, build);
+    return map;
+}
+
+PinchmapTexture texture_of(const std::vector<PinchmapTexel>& map, const PinchmapOptions& options) {
+    PinchmapTexture t;
+    t.width = options.size.width, t.height = options.size.height, t.scale = options.scale;
+    t.map_format = options.map_format, t.sample_format = options.sample_format;
+    for (const PinchmapTexel& texel : map) {
+        const auto words = fetex::pinchmap_pack(t.map_format, texel);
+        t.map.insert(t.map.end(), words.begin(), words.begin() + fetex::pinchmap_words(t.map_format));
+    }
+    return t;
+}
+
+PointGrid grid_of(const PinchmapOptions& o) {
+    return {o.size.width * signal_points(o.scale), o.size.height * signal_points(o.scale)};
+}
+
+void finish(const Silhouette& silhouette, const RowPainter& paint, const PinchmapOptions& options,
+            const ProgressSink& progress, PinchmapBuild& build) {
+    if (progress) progress("signal", 0.5);
+    build.stats.signal = fit_signal(build.texture, silhouette, paint, options.threads);
+    if (options.mips) build.texture.mips = fetex::pinchmap_make_mips(build.texture);
+    build.stats.edges = silhouette.edges.size();
+    build.stats.gpu_bytes = fetex::pinchmap_gpu_bytes(build.texture);
+    warn_of_losses(build.stats.signal, build);
+}
+
+/// The edges that a scene's discontinuities follow.
+Result<TwoZones> outline_of(const Scene& scene, const PinchmapOptions& options) {
+    if (!options.silhouette) return two_zones_of(scene, options.threads);
+    auto silhouette = silhouette_of(scene, *options.silhouette, options.threads);
+    if (!silhouette) return silhouette.error();
+    TwoZones out;
+    out.silhouette = std::move(silhouette).value();
+    return out;
+}
+
+Error size_error() {
+    return {ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 samples on each side", ""};
+}
+
+} // namespace
+
+Result<PinchmapBuild> compile_pinchmap(const Scene& scene, const PinchmapOptions& options,
+                                       const ProgressSink& progress) {
+    if (out_of_range(options)) return size_error();
+    const Result<const Solver*> solver = load_solver();
+    if (!solver) return solver.error();
+    if (progress) progress("map", 0);
+    const Result<TwoZones> zones = outline_of(scene, options);
+    if (!zones) return zones.error();
+    const Result<RowPainter> paint = scene_painter(scene, grid_of(options), options.threads);
+    if (!paint) return paint.error();
+    PinchmapBuild out;
+    const Silhouette& silhouette = zones.value().silhouette;
+    out.texture = texture_of(fit_map(*solver.value(), silhouette, options, out), options);
+    out.stats.edges_blurred = zones.value().blurred;
+    if (zones.value().blurred > 0) {
+        warn(out, diag::kPinchmapEdgesBlurred,
+             std::to_string(zones.value().blurred) +
+                 " edges lie between colours of one zone and are blurred; one is at " +
+                 place_text(zones.value().blurred_u, zones.value().blurred_v));
+    }
+    finish(silhouette, paint.value(), options, progress, out);
+    return out;
+}
+
+Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapOptions& options,
+                                       const ProgressSink& progress) {
+    if (out_of_range(options)) return size_error();
+    const Result<const Solver*> solver = load_solver();
+    if (!solver) return solver.error();
+    if (progress) progress("map", 0);
+    const Result<Silhouette> silhouette = silhouette_of(image, options.silhouette.value_or(SilhouetteRule{}));
+    if (!silhouette) return silhouette.error();
+    PinchmapBuild out;
+    std::vector<PinchmapTexel> map = fit_map(*solver.value(), silhouette.value(), options, out);
+    out.stats.soft_texels = soften(image, silhouette.value(), options.size.width, options.size.height, map);
+    out.texture = texture_of(map, options);
+    finish(silhouette.value(), image_painter(image, silhouette.value(), grid_of(options)), options, progress, out);
+    return out;
+}
+
+Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const Scene& scene, const PinchmapOptions& options,
+                                                      std::uint64_t max_bytes, double max_wrong_area,
+                                                      const ProgressSink& progress) {
+    return choose_pinchmap_size(options, scene.extent, {max_bytes, max_wrong_area},
+                                [&](const PinchmapOptions& o) { return compile_pinchmap(scene, o, progress); });
+}
+
+Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const RasterImage& image, const PinchmapOptions& options,
+                                                      std::uint64_t max_bytes, double max_wrong_area,
+                                                      const ProgressSink& progress) {
+    const Extent extent{static_cast<double>(image.width), static_cast<double>(image.height)};
+    return choose_pinchmap_size(options, extent, {max_bytes, max_wrong_area},
+                                [&](const PinchmapOptions& o) { return compile_pinchmap(image, o, progress); });
+}
+
+} // namespace fetexc
