@@ -92,17 +92,9 @@ BilevelValue bilevel_value(const BilevelTexture& texture, double x, double y) {
     return bilevel_value_local(texture, i, j, fx, fy);
 }
 
-/// From 1/2 outwards t and the coverage grow alike until a corner of the pixel meets the edge. From there on the
-/// coverage grows ever less, until the opposite side is met: `beyond` of `shorter`. Only that quotient is squared, so a
-/// shorter of next to nothing does no harm.
 double bilevel_coverage(const BilevelValue& value, BilevelPixel pixel) {
-    const auto [shorter, longer] = std::minmax({std::abs(value.dx) * clamp_to(pixel.width, 1), //
-                                                std::abs(value.dy) * clamp_to(pixel.height, 1)});
-    if (!(longer > 0)) return value.t > kThreshold ? 1 : 0;
-    const double from_edge = std::abs(value.t - kThreshold);
-    const double beyond = std::clamp(from_edge - (longer - shorter) / 2, 0.0, shorter);
-    const double missing = shorter > 0 ? beyond * (beyond / shorter) / 2 : 0;
-    return std::clamp(0.5 + std::copysign((from_edge - missing) / longer, value.t - kThreshold), 0.0, 1.0);
+    return cut_coverage(value.t - kThreshold, std::abs(value.dx) * clamp_to(pixel.width, 1),
+                        std::abs(value.dy) * clamp_to(pixel.height, 1));
 }
 
 FbtColor bilevel_sample_area_local(const BilevelTexture& texture, std::uint32_t i, std::uint32_t j, double fx,

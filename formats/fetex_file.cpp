@@ -4,6 +4,7 @@
 #include "formats/bilevel_chunks.h"
 #include "formats/fbt_mip.h"
 #include "formats/fbt_samples.h"
+#include "formats/pinchmap_chunks.h"
 #include "formats/silmap_chunks.h"
 #include "formats/validate.h"
 #include <algorithm>
@@ -17,7 +18,8 @@ constexpr std::size_t kFbtHeaderWords = 16; ///< SPEC §2.2
 constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, kFlagPatches = 8, kFlagShared = 16,
                         kFlagsKnown = 31;
 /// As write_file numbers them.
-constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1, kSilmapRepresentation = 2;
+constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1, kSilmapRepresentation = 2,
+                       kPinchmapRepresentation = 3;
 
 using Words = std::vector<std::uint32_t>;
 
@@ -248,11 +250,12 @@ class Reader {
         if (findings_.empty()) read_fbt_chunks();
         if (findings_.size() < limit_) read_bilevel_chunks();
         if (findings_.size() < limit_) read_silmap_chunks();
+        if (findings_.size() < limit_) read_pinchmap_chunks();
     }
     std::vector<Finding> take() { return std::move(findings_); }
 
   private:
-    /// Level 0 of the known chunks, and any of FBTM, BLVM and SLMM; of each kind the representation of the lowest
+    /// Level 0 of the known chunks, and any of FBTM, BLVM, SLMM and PNCM; of each kind the representation of the lowest
     /// number is the one that is read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
         const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
@@ -271,6 +274,8 @@ class Reader {
             bilevels_[chunk.representation].add(chunk);
         } else if (is_silmap_chunk(chunk)) {
             silmaps_[chunk.representation].add(chunk);
+        } else if (is_pinchmap_chunk(chunk)) {
+            pinchmaps_[chunk.representation].add(chunk);
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};
@@ -306,6 +311,9 @@ class Reader {
             if (fbts_.contains(number)) return report(number, "an FBT and a silhouette-map texture");
             if (bilevels_.contains(number)) return report(number, "a bi-level and a silhouette-map texture");
         }
+        for (const auto& [number, chunks] : pinchmaps_)
+            if (fbts_.contains(number) || bilevels_.contains(number) || silmaps_.contains(number))
+                return report(number, "a pinchmap and something else");
     }
 
     void read_bilevel_chunks() {
@@ -336,6 +344,20 @@ class Reader {
         add(std::move(found));
     }
 
+    void read_pinchmap_chunks() {
+        for (const auto& [representation, chunks] : pinchmaps_) {
+            if (!chunks.header || !chunks.map || !chunks.signal)
+                return findings_.push_back(
+                    {FindingCode::MissingChunk, 0,
+                     "representation " + std::to_string(representation) + ": a pinchmap needs PNCH, PNCD and PNCS"});
+        }
+        if (pinchmaps_.empty()) return;
+        PinchmapTexture texture;
+        std::vector<Finding> found = read_pinchmap(texture, pinchmaps_.begin()->second, limit_ - findings_.size());
+        if (found.empty()) out_.pinchmap = std::move(texture);
+        add(std::move(found));
+    }
+
     void add(std::vector<Finding> found) {
         findings_.insert(findings_.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
     }
@@ -346,6 +368,7 @@ class Reader {
     std::map<std::uint8_t, FbtChunks> fbts_;
     std::map<std::uint8_t, BilevelChunks> bilevels_;
     std::map<std::uint8_t, SilmapChunks> silmaps_;
+    std::map<std::uint8_t, PinchmapChunks> pinchmaps_;
     std::vector<Finding> findings_;
 };
 
@@ -369,6 +392,9 @@ std::vector<std::uint8_t> write_file(const FetexFile& file) {
     if (file.bilevel) append_bilevel_chunks(chunks, *file.bilevel, kBilevelRepresentation, !file.fbt, payloads);
     if (file.silmap)
         append_silmap_chunks(chunks, *file.silmap, kSilmapRepresentation, !file.fbt && !file.bilevel, payloads);
+    if (file.pinchmap)
+        append_pinchmap_chunks(chunks, *file.pinchmap, kPinchmapRepresentation,
+                               !file.fbt && !file.bilevel && !file.silmap, payloads);
     return write_container_of_views(chunks);
 }
 

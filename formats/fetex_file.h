@@ -11,6 +11,7 @@
 #include "formats/bilevel.h"
 #include "formats/container.h"
 #include "formats/fbt.h"
+#include "formats/pinchmap.h"
 #include "formats/silmap.h"
 
 namespace fetex {
@@ -23,11 +24,12 @@ struct FetexFile {
     std::optional<FbtTexture> fbt;
     std::optional<BilevelTexture> bilevel = {};
     std::optional<SilmapTexture> silmap = {};
+    std::optional<PinchmapTexture> pinchmap = {};
 };
 
 /// The file's bytes, the same for the same content. Bytes that aren't UTF-8 in metadata become U+FFFD; empty keys are
 /// left out. Preconditions: fbt passes validate_fbt, bilevel validate_bilevel, silmap
-/// validate_silmap.
+/// validate_silmap, pinchmap validate_pinchmap.
 std::vector<std::uint8_t> write_file(const FetexFile& file);
 
 /// Reads and validates everything; the first finding, or nullopt and a complete `out`. Unknown ancillary chunks are

@@ -8,7 +8,7 @@
 namespace fetex {
 
 /// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture, 3xxx of a
-/// silhouette-map texture.
+/// silhouette-map texture, 4xxx of a pinchmap.
 enum class FindingCode : std::uint16_t {
     Truncated = 101,          ///< the file ends before its stated length
     BadMagic = 102,           ///< not a .fetex file, or mangled by a text transfer
@@ -30,14 +30,16 @@ enum class FindingCode : std::uint16_t {
     BadMetadata = 202,      ///< META: counts, lengths, UTF-8, order of keys
     MissingChunk = 203,     ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
                             ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round;
-                            ///< likewise SLMH, SLMC, SLMS, SLMM
+                            ///< likewise SLMH, SLMC, SLMS, SLMM; likewise PNCH, PNCD, PNCS, PNCM
     BadFbtHeader = 204,     ///< FBTH: length, reserved words, flags
     FbtSizeMismatch = 205,  ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
     BadBilevelHeader = 206, ///< BLVH: length, dimensions, rule, reserved words
-    BilevelSizeMismatch = 207, ///< BLVT, BLVI or a level of BLVM has not the length that BLVH asks for
-    RepresentationKinds = 208, ///< one number has chunks of two representations
-    BadSilmapHeader = 209,     ///< SLMH: length, dimensions, formats, reserved words
-    SilmapSizeMismatch = 210,  ///< SLMC, SLMS or a level of SLMM has not the length that SLMH asks for
+    BilevelSizeMismatch = 207,  ///< BLVT, BLVI or a level of BLVM has not the length that BLVH asks for
+    RepresentationKinds = 208,  ///< one number has chunks of two representations
+    BadSilmapHeader = 209,      ///< SLMH: length, dimensions, formats, reserved words
+    SilmapSizeMismatch = 210,   ///< SLMC, SLMS or a level of SLMM has not the length that SLMH asks for
+    BadPinchmapHeader = 211,    ///< PNCH: length, dimensions, formats, flags, line, reserved words
+    PinchmapSizeMismatch = 212, ///< PNCD, PNCS or a level of PNCM has not the length that PNCH asks for
 
     FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
     FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque
@@ -68,10 +70,19 @@ enum class FindingCode : std::uint16_t {
     SilmapFormat = 3002,           ///< unknown cell or sample format; a cell of 8 bits with more
     SilmapNotPremultiplied = 3003, ///< a colour channel exceeds alpha
     SilmapSampleValue = 3004,      ///< as FbtSampleValue; or alpha that isn't 1 in RGB8
+
+    PinchmapDimensions = 4001,       ///< sides of the signal 1 … 16384; lengths of the arrays
+    PinchmapFormat = 4002,           ///< unknown map or sample format; a line wider than a texel
+    PinchmapNotPremultiplied = 4003, ///< a colour channel exceeds alpha
+    PinchmapSampleValue = 4004,      ///< as SilmapSampleValue
+    PinchmapValue = 4005,     ///< a value beyond ±1; gamma of ±1; k none of -1, 0, 1; a direction where k isn't 0
+    PinchmapCluster = 4006,   ///< a cluster with four active texels, with two across, or on both sides
+    PinchmapDirection = 4007, ///< active where no line is, or beside another without one between; a direction that
+                              ///< isn't from the side -1 to the side +1
 };
 
-/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel and
-/// validate_silmap, of the part the message names.
+/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel,
+/// validate_silmap and validate_pinchmap, of the part the message names.
 struct Finding {
     FindingCode code{};
     std::uint64_t offset = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "formats/fbt.h"
@@ -46,6 +47,20 @@ template <class At> FbtColor interpolated(const Neighbours& column, const Neighb
         return mix(at(column.first, j), at(column.second, j), column.weight);
     };
     return mix(along_row(row.first), along_row(row.second), row.weight);
+}
+
+/// The part of a pixel on the positive side of a straight edge, 0…1: the exact area of a rectangle cut by a line.
+/// value: at the pixel's middle, 0 on the edge; changes: of it along the pixel's sides. From 1/2 outwards value and
+/// part grow alike until a corner of the pixel meets the edge. From there on the part grows ever less, until the
+/// opposite side is met: `beyond` of `shorter`. Only that quotient is squared, so a shorter of next to nothing does no
+/// harm. Without any change 1 if the value is above 0, else 0.
+inline double cut_coverage(double value, double change_x, double change_y) {
+    const auto [shorter, longer] = std::minmax({std::abs(change_x), std::abs(change_y)});
+    if (!(longer > 0)) return value > 0 ? 1 : 0;
+    const double from_edge = std::abs(value);
+    const double beyond = std::clamp(from_edge - (longer - shorter) / 2, 0.0, shorter);
+    const double missing = shorter > 0 ? beyond * (beyond / shorter) / 2 : 0;
+    return std::clamp(0.5 + std::copysign((from_edge - missing) / longer, value), 0.0, 1.0);
 }
 
 } // namespace fetex

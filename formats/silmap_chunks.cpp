@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "formats/bitmap_samples.h"
 #include "formats/fbt_mip.h"
-#include "formats/fbt_samples.h"
 #include "formats/validate.h"
 
 namespace fetex {
@@ -24,10 +24,6 @@ std::vector<std::uint32_t> header_words(const SilmapTexture& t) {
 
 std::size_t cell_bytes(SilmapCellFormat format) { return format == SilmapCellFormat::Bits8 ? 1 : 2; }
 
-std::size_t sample_bytes(SilmapSampleFormat format) {
-    return format == SilmapSampleFormat::Rgb8 ? 3 : 4 * fbt_sample_words(silmap_fbt_format(format));
-}
-
 std::vector<std::uint8_t> packed_cells(const SilmapTexture& t) {
     if (t.cell_format == SilmapCellFormat::Bits8) return {t.cells.begin(), t.cells.end()};
     std::vector<std::uint8_t> out;
@@ -42,23 +38,6 @@ std::vector<std::uint16_t> unpacked_cells(ByteSpan bytes, SilmapCellFormat forma
     std::vector<std::uint16_t> out(bytes.size() / 2);
     for (std::size_t k = 0; k < out.size(); ++k)
         out[k] = load_le<std::uint16_t>(bytes, 2 * k);
-    return out;
-}
-
-std::vector<std::uint8_t> without_alpha(std::span<const std::uint32_t> samples) {
-    std::vector<std::uint8_t> out;
-    out.reserve(3 * samples.size());
-    for (const std::uint32_t sample : samples)
-        for (unsigned shift = 0; shift < 24; shift += 8)
-            out.push_back(static_cast<std::uint8_t>(sample >> shift));
-    return out;
-}
-
-std::vector<std::uint32_t> with_alpha(ByteSpan bytes) {
-    std::vector<std::uint32_t> out(bytes.size() / 3);
-    for (std::size_t k = 0; k < out.size(); ++k)
-        out[k] =
-            0xff000000u | bytes[3 * k] | std::uint32_t{bytes[3 * k + 1]} << 8 | std::uint32_t{bytes[3 * k + 2]} << 16;
     return out;
 }
 
@@ -106,7 +85,7 @@ std::optional<Finding> read_parts(SilmapTexture& out, const SilmapChunks& chunks
     const std::uint64_t cells = std::uint64_t{silmap_columns(out)} * silmap_rows(out);
     if (chunks.cells->payload.size() != cells * cell_bytes(out.cell_format)) return wrong_length(*chunks.cells);
     const std::uint64_t samples = std::uint64_t{out.width} * out.height;
-    if (chunks.samples->payload.size() != samples * sample_bytes(out.sample_format))
+    if (chunks.samples->payload.size() != samples * bitmap_sample_bytes(out.sample_format))
         return wrong_length(*chunks.samples);
     out.cells = unpacked_cells(chunks.cells->payload, out.cell_format);
     const ByteSpan colors = chunks.samples->payload;

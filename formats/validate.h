@@ -8,6 +8,7 @@
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
 #include "formats/findings.h"
+#include "formats/pinchmap.h"
 #include "formats/silmap.h"
 
 namespace fetex {
@@ -37,5 +38,12 @@ inline constexpr std::uint32_t kSilmapMaxSide = 16384;
 /// Findings, at most `limit`; offsets are bytes from the start of the samples as the file has them or of the mips, as
 /// the message says.
 std::vector<Finding> validate_silmap(const SilmapTexture& texture, std::size_t limit = 64);
+
+inline constexpr std::uint32_t kPinchmapMaxSide = 16384; ///< of the signal
+inline constexpr std::uint32_t kPinchmapMaxScale = 14;
+
+/// Findings, at most `limit`; offsets are bytes from the start of the header, the map, the signal as the file has it or
+/// the mips, as the message says.
+std::vector<Finding> validate_pinchmap(const PinchmapTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #include <algorithm>
-#include <array>
 #include <span>
 
+#include "formats/bitmap_samples.h"
 #include "formats/fbt_mip.h"
-#include "formats/fbt_samples.h"
 #include "formats/validate.h"
 
 namespace fetex {
@@ -24,25 +23,9 @@ const char* wrong_size(const SilmapTexture& t) {
     return nullptr;
 }
 
-/// What is wrong with a sample; FindingCode{}: nothing.
-FindingCode fault_of_halves(const std::uint32_t* words) {
-    const std::array<std::uint32_t, 4> c = {words[0] & 0xffffu, words[0] >> 16, words[1] & 0xffffu, words[1] >> 16};
-    // Halves without a sign order as integers do.
-    if (*std::ranges::max_element(c) >= kFbtHalfInfinity || c[3] > kFbtHalfOne) return FindingCode::SilmapSampleValue;
-    return c[3] == 0 && (c[0] | c[1] | c[2]) != 0 ? FindingCode::SilmapNotPremultiplied : FindingCode{};
-}
-
-FindingCode fault_of(const std::uint32_t* words, SilmapSampleFormat format) {
-    if (format == SilmapSampleFormat::Rgba16F) return fault_of_halves(words);
-    if (format == SilmapSampleFormat::Rgb8 && words[0] >> 24 != 255) return FindingCode::SilmapSampleValue;
-    const std::array<double, 4> c = fbt_sample_channels(words, silmap_fbt_format(format));
-    return std::max({c[0], c[1], c[2]}) > c[3] ? FindingCode::SilmapNotPremultiplied : FindingCode{};
-}
-
-const char* text_of(FindingCode code) {
-    return code == FindingCode::SilmapNotPremultiplied
-               ? ": a colour channel exceeds alpha"
-               : ": a half that is negative, infinite or no number, an alpha above 1, or less than 1 in RGB8";
+FindingCode code_of(SampleFault fault) {
+    return fault == SampleFault::NotPremultiplied ? FindingCode::SilmapNotPremultiplied
+                                                  : FindingCode::SilmapSampleValue;
 }
 
 } // namespace
@@ -60,10 +43,10 @@ std::vector<Finding> validate_silmap(const SilmapTexture& texture, std::size_t l
     const auto check = [&](std::span<const std::uint32_t> words, SilmapSampleFormat format, const std::string& part) {
         const std::size_t step = fbt_sample_words(silmap_fbt_format(format));
         for (std::size_t k = 0; k < words.size() && findings.size() < limit; k += step) {
-            const FindingCode fault = fault_of(&words[k], format);
-            if (fault == FindingCode{}) continue;
+            const SampleFault fault = bitmap_sample_fault(&words[k], format);
+            if (fault == SampleFault::None) continue;
             const std::size_t bytes = format == SilmapSampleFormat::Rgb8 ? 3 : 4;
-            findings.push_back({fault, bytes * std::uint64_t{k}, part + text_of(fault)});
+            findings.push_back({code_of(fault), bytes * std::uint64_t{k}, part + sample_fault_text(fault)});
         }
     };
     check(texture.colors, texture.sample_format, "samples");

@@ -69,6 +69,18 @@ void sample_everywhere(const fetex::SilmapTexture& texture) {
             }
 }
 
+void sample_everywhere(const fetex::PinchmapTexture& texture) {
+    const std::uint32_t step_x = 1 + texture.width / 64, step_y = 1 + texture.height / 64;
+    for (std::uint32_t j = 0; j <= texture.height; j += step_y)
+        for (std::uint32_t i = 0; i <= texture.width; i += step_x)
+            for (const double side : {0.0, 0.3, 7.0}) {
+                const fetex::PinchmapPixel pixel{side, side};
+                const auto color = texture.mips.empty() ? fetex::pinchmap_sample_area(texture, i - 0.3, j + 0.6, pixel)
+                                                        : fetex::pinchmap_sample_mip(texture, i - 0.3, j + 0.6, pixel);
+                if (!(color.a <= 1 + 1e-9)) std::abort();
+            }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -82,6 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (file.fbt && file.fbt->traits.max_entries < 4096) sample_everywhere(*file.fbt);
     if (file.bilevel) sample_everywhere(*file.bilevel);
     if (file.silmap) sample_everywhere(*file.silmap);
+    if (file.pinchmap) sample_everywhere(*file.pinchmap);
     fetex::FetexFile again; // what is taken survives another round
     if (fetex::read_file(again, fetex::write_file(file))) std::abort();
     return 0;
