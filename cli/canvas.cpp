@@ -88,10 +88,9 @@ Result<fetex::Image> Canvas::draw(const fetex::FbtTexture& texture, const fetex:
 Result<fetex::Image> Canvas::draw(const fetex::BilevelTexture& texture, const fetex::View& view,
                                   const fetex::RenderSize& size) {
     if (!gl_) return to_result(fetex::render_cpu(texture, view, size));
-    const auto error_of_filter = gl_->linear_filter_error();
-    if (!error_of_filter) return to_error(error_of_filter.error());
-    const bool filters_well = error_of_filter.value() <= fetex::kGoodFilterError;
-    const auto fetch = filters_well ? fetex::BilevelFetch::Filtered : fetex::BilevelFetch::Interpolated;
+    const auto filters = filters_well();
+    if (!filters) return filters.error();
+    const auto fetch = filters.value() ? fetex::BilevelFetch::Filtered : fetex::BilevelFetch::Interpolated;
     if (const auto error = gl_->upload_bilevel(texture, fetch)) return to_error(*error);
     return to_result(gl_->render_bilevel(view, size));
 }
@@ -101,6 +100,22 @@ Result<fetex::Image> Canvas::draw(const fetex::SilmapTexture& texture, const fet
     if (!gl_) return to_result(fetex::render_cpu(texture, view, size, filter));
     if (const auto error = gl_->upload_silmap(texture, filter)) return to_error(*error);
     return to_result(gl_->render_silmap(view, size));
+}
+
+Result<fetex::Image> Canvas::draw(const fetex::PinchmapTexture& texture, const fetex::View& view,
+                                  const fetex::RenderSize& size) {
+    if (!gl_) return to_result(fetex::render_cpu(texture, view, size));
+    const auto filters = filters_well();
+    if (!filters) return filters.error();
+    const auto fetch = filters.value() ? fetex::PinchmapFetch::Filtered : fetex::PinchmapFetch::Interpolated;
+    if (const auto error = gl_->upload_pinchmap(texture, fetch)) return to_error(*error);
+    return to_result(gl_->render_pinchmap(view, size));
+}
+
+Result<bool> Canvas::filters_well() {
+    const auto error = gl_->linear_filter_error();
+    if (!error) return to_error(error.error());
+    return error.value() <= fetex::kGoodFilterError;
 }
 
 Result<fetex::Image> Canvas::draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size) {
@@ -118,6 +133,10 @@ Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::
 }
 
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::uint64_t bytes) {
+    return equal_bitmap(texture, bytes);
+}
+
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::PinchmapTexture& texture, std::uint64_t bytes) {
     return equal_bitmap(texture, bytes);
 }
 

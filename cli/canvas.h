@@ -36,9 +36,14 @@ class Canvas {
     Result<fetex::Image> draw(const fetex::SilmapTexture& texture, const fetex::View& view,
                               const fetex::RenderSize& size,
                               fetex::SilmapFilter filter = fetex::SilmapFilter::Filtered);
+    /// By the hardware's filter where a probe finds that good enough.
+    Result<fetex::Image> draw(const fetex::PinchmapTexture& texture, const fetex::View& view,
+                              const fetex::RenderSize& size);
     Result<fetex::Image> draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size);
 
   private:
+    [[nodiscard]] Result<bool> filters_well();
+
     std::optional<fetex::Renderer> gl_; ///< empty: the CPU reference
     std::string description_ = "cpu";
 };
@@ -47,5 +52,6 @@ class Canvas {
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint64_t bytes);
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes);
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::uint64_t bytes);
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::PinchmapTexture& texture, std::uint64_t bytes);
 
 } // namespace fetexc::cli

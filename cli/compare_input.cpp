@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/compile_bilevel.h"
+#include "cli/compile_pinchmap.h"
 #include "cli/compile_silmap.h"
 #include "cli/fetex_input.h"
 #include "cli/image_file.h"
@@ -40,11 +41,17 @@ std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t
     return std::make_unique<const measure::SilmapPicture>(t);
 }
 
+std::unique_ptr<const measure::Picture> picture_of(const fetex::PinchmapTexture& t) {
+    return std::make_unique<const measure::PinchmapPicture>(t);
+}
+
 std::string name_of(const fetex::FbtTexture&) { return "FBT"; }
 std::string name_of(const fetex::BilevelTexture& t) { return fmt::format("bi-level texture ({})", rule_name(t.rule)); }
 std::string name_of(const fetex::SilmapTexture& t) {
     return fmt::format("silhouette-map texture ({}-bit cells)", cell_bits(t));
 }
+
+std::string name_of(const fetex::PinchmapTexture& t) { return fmt::format("pinchmap ({}-bit map)", map_bits(t)); }
 
 Result<ComparedPicture> asset_picture(const ComparedFile& file, const std::string& representation) {
     auto input = fetex_of_bytes(file.bytes, file.path);

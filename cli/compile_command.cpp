@@ -106,7 +106,8 @@ SilmapRequest silmap_request(const CompileCommandOptions& options, const Extent&
 std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
     std::string text = fmt::format("repr={}", fmt::join(options.representations, ","));
     if (compiled.fbt) text += fmt::format(" size={}x{}", compiled.fbt->texture.width, compiled.fbt->texture.height);
-    if (!compiled.features_hash.empty() || options.image.trace) text += fmt::format(" invalidate={}", options.image.invalidate);
+    if (!compiled.features_hash.empty() || options.image.trace)
+        text += fmt::format(" invalidate={}", options.image.invalidate);
     if (options.mips) text += " mips";
     if (options.samples != "8") text += " samples=" + options.samples;
     if (options.image.trace)

@@ -52,6 +52,7 @@ Status choose_representation(fetex::FetexFile& file, const std::string& name, co
     look_at(kRepresentations[0], file.fbt);
     look_at(kRepresentations[1], file.bilevel);
     look_at(kRepresentations[2], file.silmap);
+    look_at(kRepresentations[3], file.pinchmap);
     if (found) return {};
     return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no " + what, path};
 }

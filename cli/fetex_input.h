@@ -31,8 +31,8 @@ struct Representation {
     const char* name;  ///< as --repr takes it
     const char* words; ///< for messages
 };
-inline constexpr std::array<Representation, 3> kRepresentations{
-    {{"fbt", "FBT"}, {"bilevel", "bi-level texture"}, {"silmap", "silhouette-map texture"}}};
+inline constexpr std::array<Representation, 4> kRepresentations{
+    {{"fbt", "FBT"}, {"bilevel", "bi-level texture"}, {"silmap", "silhouette-map texture"}, {"pinchmap", "pinchmap"}}};
 
 /// Their names.
 const std::vector<std::string>& representation_names();
@@ -45,7 +45,8 @@ Status choose_representation(fetex::FetexFile& file, const std::string& name, co
 template <class Visit> auto with_texture(const fetex::FetexFile& file, const Visit& visit) {
     if (file.fbt) return visit(*file.fbt);
     if (file.bilevel) return visit(*file.bilevel);
-    return visit(*file.silmap);
+    if (file.silmap) return visit(*file.silmap);
+    return visit(*file.pinchmap);
 }
 
 /// "F0101 at byte 12: reason"

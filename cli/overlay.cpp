@@ -1,77 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/overlay.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "cli/pen.h"
 
 namespace fetexc::cli {
 namespace {
 
-struct Pixel {
-    double x = 0, y = 0;
-};
-/// Straight.
-struct Ink {
-    float r = 0, g = 0, b = 0, a = 1;
-};
 constexpr Ink kHalo{1, 1, 1, 0.7F}, kBoundary{0.85F, 0, 0.45F, 1}, kLink{0.1F, 0.35F, 0.9F, 0.6F},
     kSide{0.45F, 0.45F, 0.45F, 0.5F}, kPoint{1, 0.85F, 0, 1}, kRim{0.1F, 0.1F, 0.1F, 1};
 /// Pixels a cell from which its sides and other links are drawn, and the texels' colours.
 constexpr double kRoomForSides = 12, kRoomForTexels = 28;
-
-/// Lines with round ends, and discs, without jags.
-class Pen {
-  public:
-    explicit Pen(fetex::Image& image) : image_(image) {}
-
-    void line(Pixel a, Pixel b, double width, const Ink& ink) {
-        const double r = width / 2, dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
-        each_pixel(
-            {std::min(a.x, b.x) - r, std::min(a.y, b.y) - r}, {std::max(a.x, b.x) + r, std::max(a.y, b.y) + r},
-            [&](double x, double y) {
-                const double t = length2 > 0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / length2, 0.0, 1.0) : 0;
-                return r - std::hypot(x - a.x - t * dx, y - a.y - t * dy);
-            },
-            ink);
-    }
-
-    void dashed(Pixel a, Pixel b, double width, const Ink& ink) {
-        constexpr double kDash = 4;
-        const auto dashes = static_cast<int>(std::max(1.0, std::hypot(b.x - a.x, b.y - a.y) / (2 * kDash)));
-        const auto at = [&](double t) { return Pixel{a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; };
-        for (int k = 0; k < dashes; ++k)
-            line(at((k + 0.25) / dashes), at((k + 0.75) / dashes), width, ink);
-    }
-
-    void disc(Pixel at, double radius, const Ink& ink) { line(at, at, 2 * radius, ink); }
-
-  private:
-    /// depth: pixels from a pixel's middle to the shape's border, positive inside.
-    template <class Depth> void each_pixel(Pixel low, Pixel high, const Depth& depth, const Ink& ink) {
-        const auto range = [](double from, double to, std::uint32_t n) {
-            return std::array{static_cast<std::int64_t>(std::clamp(std::floor(from - 1), 0.0, double{1} * n)),
-                              static_cast<std::int64_t>(std::clamp(std::ceil(to + 1), 0.0, double{1} * n))};
-        };
-        const auto xs = range(low.x, high.x, image_.width), ys = range(low.y, high.y, image_.height);
-        for (std::int64_t y = ys[0]; y < ys[1]; ++y) {
-            for (std::int64_t x = xs[0]; x < xs[1]; ++x) {
-                const double d = depth(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
-                blend(x, y, ink, static_cast<float>(std::clamp(d + 0.5, 0.0, 1.0)));
-            }
-        }
-    }
-
-    void blend(std::int64_t x, std::int64_t y, const Ink& ink, float coverage) {
-        float* const p = image_.rgba.data() + 4 * (static_cast<std::size_t>(y) * image_.width + x);
-        const float a = ink.a * coverage;
-        const std::array over{ink.r * a, ink.g * a, ink.b * a, a};
-        for (std::size_t k = 0; k < 4; ++k)
-            p[k] = over[k] + p[k] * (1 - a);
-    }
-
-    fetex::Image& image_;
-};
 
 class SilmapOverlay {
   public:
@@ -162,7 +100,98 @@ class SilmapOverlay {
     double room_;
 };
 
+class PinchmapOverlay {
+  public:
+    PinchmapOverlay(const fetex::PinchmapTexture& texture, const fetex::View& view, fetex::Image& image)
+        : texture_(texture), view_(view), pen_(image), scale_x_(image.width / (view.w * texture.width)),
+          scale_y_(image.height / (view.h * texture.height)), room_(std::min(scale_x_, scale_y_)) {}
+
+    void draw() {
+        if (room_ >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_line(i, j); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_arrow(i, j); });
+    }
+
+  private:
+    [[nodiscard]] Pixel at(double x, double y) const {
+        return {(x - view_.x * texture_.width) * scale_x_, (y - view_.y * texture_.height) * scale_y_};
+    }
+    [[nodiscard]] double thickness() const { return std::clamp(room_ / 10, 1.0, 4.0); }
+
+    template <class Visit> void each_texel(const Visit& visit) const {
+        const auto range = [](double from, double extent, std::uint32_t size) {
+            const auto bound = [&](double v) {
+                return static_cast<std::uint32_t>(std::clamp(std::floor(v), 0.0, double{1} * size));
+            };
+            return std::array{bound(from * size - 1), bound((from + extent) * size + 1)};
+        };
+        const auto is = range(view_.x, view_.w, texture_.width), js = range(view_.y, view_.h, texture_.height);
+        for (std::uint32_t j = js[0]; j <= js[1]; ++j) {
+            for (std::uint32_t i = is[0]; i <= is[1]; ++i)
+                visit(i, j);
+        }
+    }
+
+    void draw_sides(std::uint32_t i, std::uint32_t j) {
+        if (i < texture_.width) pen_.dashed(at(i, j), at(i + 1.0, j), 1, kSide);
+        if (j < texture_.height) pen_.dashed(at(i, j), at(i, j + 1.0), 1, kSide);
+    }
+
+    /// The discontinuity in a cluster: where k − gamma, bilinear, is 0.
+    void draw_line(std::uint32_t i, std::uint32_t j) {
+        if (i >= texture_.width || j >= texture_.height) return;
+        const auto side = [&](std::uint32_t di, std::uint32_t dj) {
+            const fetex::PinchmapTexel t = fetex::pinchmap_texel(texture_, i + di, j + dj);
+            return t.k - t.gamma;
+        };
+        const std::array<double, 4> f{side(0, 0), side(1, 0), side(0, 1), side(1, 1)};
+        if ((f[0] > 0) == (f[1] > 0) && (f[0] > 0) == (f[2] > 0) && (f[0] > 0) == (f[3] > 0)) return;
+        constexpr int kSteps = 16;
+        for (int s = 0; s < kSteps; ++s)
+            draw_piece(i, j, f, s / double{kSteps}, (s + 1) / double{kSteps});
+    }
+
+    /// From one upright line of the cluster to the next, and from one level line to the next where it is steep.
+    void draw_piece(std::uint32_t i, std::uint32_t j, const std::array<double, 4>& f, double a, double b) {
+        const auto crossing = [](double from, double to) {
+            return from != to && (from > 0) != (to > 0) ? from / (from - to) : -1;
+        };
+        const auto mix = [](double p, double q, double t) { return p + (q - p) * t; };
+        const double ya = crossing(mix(f[0], f[1], a), mix(f[2], f[3], a)),
+                     yb = crossing(mix(f[0], f[1], b), mix(f[2], f[3], b)),
+                     xa = crossing(mix(f[0], f[2], a), mix(f[1], f[3], a)),
+                     xb = crossing(mix(f[0], f[2], b), mix(f[1], f[3], b));
+        const auto line = [&](Pixel p, Pixel q) {
+            pen_.line(p, q, 2 * thickness(), kHalo);
+            pen_.line(p, q, thickness(), kBoundary);
+        };
+        if (ya >= 0 && yb >= 0) line(at(i + a, j + ya), at(i + b, j + yb));
+        if (xa >= 0 && xb >= 0) line(at(i + xa, j + a), at(i + xb, j + b));
+    }
+
+    /// Of an active texel: which way it pinches, as long as its strength lets.
+    void draw_arrow(std::uint32_t i, std::uint32_t j) {
+        const fetex::PinchmapTexel t = fetex::pinchmap_texel(texture_, i, j);
+        if (t.k != 0 || room_ < kRoomForSides) return;
+        const Pixel from = at(i - 0.35 * t.du, j - 0.35 * t.dv), to = at(i + 0.35 * t.du, j + 0.35 * t.dv);
+        pen_.line(from, to, 1.5, kLink);
+        pen_.disc(to, thickness(), kLink);
+        pen_.disc(at(i, j), thickness() + 1, kRim);
+        pen_.disc(at(i, j), thickness(), kPoint);
+    }
+
+    const fetex::PinchmapTexture& texture_;
+    const fetex::View& view_;
+    Pen pen_;
+    double scale_x_, scale_y_; ///< pixels a cluster
+    double room_;
+};
+
 } // namespace
+
+void draw_overlay(const fetex::PinchmapTexture& texture, const fetex::View& view, fetex::Image& image) {
+    PinchmapOverlay(texture, view, image).draw();
+}
 
 void draw_overlay(const fetex::SilmapTexture& texture, const fetex::View& view, fetex::Image& image) {
     SilmapOverlay(texture, view, image).draw();

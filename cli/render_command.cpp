@@ -33,10 +33,12 @@ struct RenderOptions {
 std::uint64_t gpu_bytes(const fetex::FbtTexture& texture) { return fetex::fbt_gpu_bytes(texture); }
 std::uint64_t gpu_bytes(const fetex::BilevelTexture& texture) { return fetex::bilevel_gpu_bytes(texture); }
 std::uint64_t gpu_bytes(const fetex::SilmapTexture& texture) { return fetex::silmap_gpu_bytes(texture); }
+std::uint64_t gpu_bytes(const fetex::PinchmapTexture& texture) { return fetex::pinchmap_gpu_bytes(texture); }
 
 const char* texels_name(const fetex::FbtTexture&) { return "of features"; }
 const char* texels_name(const fetex::BilevelTexture&) { return "cut at one half"; }
 const char* texels_name(const fetex::SilmapTexture&) { return "and a silhouette map"; }
+const char* texels_name(const fetex::PinchmapTexture&) { return "of a pinchmap and its signal"; }
 
 /// A bi-level texture is cut softly unless told otherwise.
 template <class Texture> fetex::Filter filter_of(const std::string& name, const Texture&) {
@@ -86,6 +88,13 @@ Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions& options, const
     return image;
 }
 
+Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions& options, const fetex::PinchmapTexture& texture,
+                             const fetex::View& view, const fetex::RenderSize& size) {
+    auto image = canvas.draw(texture, view, size);
+    if (image && options.overlay) draw_overlay(texture, view, image.value());
+    return image;
+}
+
 template <class Texture> Result<fetex::Image> draw(const RenderOptions& options, const Texture& texture) {
     auto canvas = Canvas::open(options.backend);
     if (!canvas) return canvas.error();
@@ -105,9 +114,12 @@ int run_render(const RenderOptions& options) {
     fetex::FetexFile& file = input.value().file;
     if (const Status s = choose_representation(file, options.representation, options.input); !s)
         return report_error(s.error());
-    if ((options.nearest || options.overlay) && !file.silmap)
+    if (options.nearest && !file.silmap)
+        return report_error(
+            {ErrorClass::Usage, diag::kBadUsage, "--nearest is for silhouette-map textures", options.input});
+    if (options.overlay && !file.silmap && !file.pinchmap)
         return report_error({ErrorClass::Usage, diag::kBadUsage,
-                             "--nearest and --overlay are for silhouette-map textures", options.input});
+                             "--overlay is for silhouette-map textures and pinchmaps", options.input});
     const auto image = with_texture(file, [&](const auto& texture) { return draw(options, texture); });
     if (!image) return report_error(image.error(), options.input);
     const auto png = encode_png(image.value());
@@ -123,8 +135,9 @@ Command add_render_command(CLI::App& parent) {
     CLI::App* app = parent.add_subcommand("render", "Draw a .fetex texture, or a part of it, into a PNG");
     app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
     app->add_option("-o,--output", options->output, "The PNG to write, or - for stdout")->required()->type_name("FILE");
-    app->add_option("--repr", options->representation,
-                    "Representation to draw: fbt, bilevel or silmap; default: the first of these that the file holds")
+    app->add_option(
+           "--repr", options->representation,
+           "Representation to draw: fbt, bilevel, silmap or pinchmap; default: the first of these that the file holds")
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     add_view_option(*app, options->view);
@@ -147,7 +160,8 @@ Command add_render_command(CLI::App& parent) {
                   "A silhouette-map texture without interpolation between its colours: each quadrant has one");
     app->add_flag("--overlay", options->overlay,
                   "Draw what a silhouette-map texture is made of over it: boundaries and points, and magnified enough "
-                  "the cells and the texels' colours");
+                  "the cells and the texels' colours; of a pinchmap the discontinuities, the active texels and which "
+                  "way they pinch");
     app->add_option("--beside", options->beside,
                     "bilinear: draw to the right what an ordinary texture of the same bytes shows")
         ->check(CLI::IsMember({"bilinear"}))

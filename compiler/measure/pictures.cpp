@@ -29,6 +29,13 @@ Rgba SilmapPicture::at(TexturePoint p) const {
 
 std::uint64_t SilmapPicture::gpu_bytes() const { return fetex::silmap_gpu_bytes(texture_); }
 
+Rgba PinchmapPicture::at(TexturePoint p) const {
+    const fetex::FbtColor c = fetex::pinchmap_sample(texture_, p.u * texture_.width, p.v * texture_.height);
+    return {c.r, c.g, c.b, c.a};
+}
+
+std::uint64_t PinchmapPicture::gpu_bytes() const { return fetex::pinchmap_gpu_bytes(texture_); }
+
 BitmapPicture::BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filter filter)
     : size_(size), rgba_(std::move(rgba)), filter_(filter) {
     assert(size.width > 0 && size.height > 0);

@@ -8,6 +8,7 @@
 #include "compiler/measure/picture.h"
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/pinchmap.h"
 #include "formats/silmap.h"
 
 namespace fetexc::measure {
@@ -50,6 +51,19 @@ class SilmapPicture final : public Picture {
   private:
     const fetex::SilmapTexture& texture_;
     fetex::SilmapFilter filter_;
+};
+
+/// Cut hard.
+class PinchmapPicture final : public Picture {
+  public:
+    /// A validated texture that outlives the picture.
+    explicit PinchmapPicture(const fetex::PinchmapTexture& texture) : texture_(texture) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return {texture_.width, texture_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override;
+
+  private:
+    const fetex::PinchmapTexture& texture_;
 };
 
 /// Stretched over the canvas, without mip levels; borders are clamped.
