@@ -133,11 +133,13 @@ Result<CompiledBilevel> compile_silhouette(const Silhouette& silhouette, const B
     return out;
 }
 
-std::vector<CLI::Option*> add_bilevel_options(CLI::App& app, BilevelCommandOptions& options) {
+BilevelCliOptions add_bilevel_options(CLI::App& app, BilevelCommandOptions& options) {
     CLI::Option* silhouette =
-        app.add_option("--silhouette", options.silhouette,
-                       "What a bi-level texture shows: two-colors (default; other drawings are refused), alpha (above "
-                       "1/2), luminance (over white, darker than 1/2), id:NAME (the shapes of an element)")
+        app.add_option(
+               "--silhouette", options.silhouette,
+               "What a bi-level texture shows: two-colors (default; other drawings are refused), alpha (above "
+               "1/2), luminance (over white, darker than 1/2), id:NAME (the shapes of an element); of a "
+               "pinchmap where its discontinuities are (default: all edges that two zones can have between them)")
             ->check([](const std::string& text) {
                 return silhouette_rule(text) ? std::string()
                                              : fmt::format("'{}' is not two-colors, alpha, luminance or id:NAME", text);
@@ -154,7 +156,7 @@ std::vector<CLI::Option*> add_bilevel_options(CLI::App& app, BilevelCommandOptio
     CLI::Option* above = app.add_option("--above-image", options.above_image,
                                         "An image that a bi-level texture shows instead of the colour above")
                              ->type_name("FILE");
-    return {silhouette, channels, greys, above};
+    return {{channels, greys, above}, silhouette};
 }
 
 } // namespace fetexc::cli

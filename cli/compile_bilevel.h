@@ -47,7 +47,11 @@ Result<CompiledBilevel> compile_silhouette(const Silhouette& silhouette, const B
 /// "single", "min", "max", "median".
 const char* rule_name(fetex::BilevelRule rule);
 
-/// --silhouette, --channels, --no-mid-greys, --above-image.
-std::vector<CLI::Option*> add_bilevel_options(CLI::App& app, BilevelCommandOptions& options);
+/// --channels, --no-mid-greys, --above-image; --silhouette, which pinchmaps have as well.
+struct BilevelCliOptions {
+    std::vector<CLI::Option*> own;
+    CLI::Option* silhouette = nullptr;
+};
+BilevelCliOptions add_bilevel_options(CLI::App& app, BilevelCommandOptions& options);
 
 } // namespace fetexc::cli

@@ -9,6 +9,7 @@
 
 #include "cli/compile_bilevel.h"
 #include "cli/compile_image.h"
+#include "cli/compile_pinchmap.h"
 #include "cli/compile_silmap.h"
 #include "cli/depfile.h"
 #include "cli/fetex_input.h"
@@ -39,6 +40,8 @@ struct CompileCommandOptions {
     ImageOptions image;
     BilevelCommandOptions bilevel;
     SilmapCommandOptions silmap;
+    PinchmapCommandOptions pinchmap;
+    bool silhouette_given = false;
     /// Options, and the representations of which one must be made for them to mean anything.
     struct OptionsFor {
         std::vector<CLI::Option*> options;
@@ -89,6 +92,7 @@ struct Compiled {
     std::optional<FbtBuild> fbt;
     std::optional<CompiledBilevel> bilevel;
     std::optional<SilmapBuild> silmap;
+    std::optional<PinchmapBuild> pinchmap;
     CompileReport report; ///< the FBT's if there is one
 };
 
@@ -99,6 +103,16 @@ SilmapRequest silmap_request(const CompileCommandOptions& options, const Extent&
     request.max_bytes = options.max_bytes, request.samples = options.samples;
     request.mips = options.mips, request.threads = options.threads;
     request.skip = skip_rules_without(options.no_skip);
+    return request;
+}
+
+PinchmapRequest pinchmap_request(const CompileCommandOptions& options, const Extent& extent) {
+    PinchmapRequest request;
+    request.how = options.pinchmap, request.max_wrong_ppm = options.silmap.max_wrong_ppm;
+    if (options.silhouette_given) request.silhouette = options.bilevel.silhouette;
+    request.size = grid_of(options.size, extent), request.automatic = options.size.automatic;
+    request.max_bytes = options.max_bytes, request.samples = options.samples;
+    request.mips = options.mips, request.threads = options.threads;
     return request;
 }
 
@@ -120,6 +134,7 @@ std::string options_text(const Compiled& compiled, const CompileCommandOptions& 
     };
     if (compiled.bilevel) add("bilevel-", compiled.bilevel->build.texture, compiled.bilevel->options);
     if (compiled.silmap) add("silmap-", compiled.silmap->texture, options_text(silmap_request(options, {})));
+    if (compiled.pinchmap) add("pinchmap-", compiled.pinchmap->texture, options_text(pinchmap_request(options, {})));
     return text;
 }
 
@@ -160,6 +175,14 @@ Status add_silmap(Result<SilmapBuild> built, std::vector<Diagnostic>& diagnostic
     return {};
 }
 
+Status add_pinchmap(Result<PinchmapBuild> built, std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
+    if (!built) return built.error();
+    const std::vector<Diagnostic>& said = built.value().diagnostics;
+    diagnostics.insert(diagnostics.end(), said.begin(), said.end());
+    compiled.pinchmap = std::move(built).value();
+    return {};
+}
+
 Status add_fbt(Result<FbtBuild> build, Compiled& compiled) {
     if (!build) return build.error();
     compiled.fbt = std::move(build).value();
@@ -197,6 +220,11 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
         auto built = compile_silhouette_map(picture, request, progress.sink());
         if (const Status s = add_silmap(std::move(built), diagnostics, compiled); !s) return s.error();
     }
+    if (makes(options, "pinchmap")) {
+        PinchmapRequest request = pinchmap_request(options, picture.features.extent);
+        auto built = compile_pinched(picture.image, request, progress.sink());
+        if (const Status s = add_pinchmap(std::move(built), diagnostics, compiled); !s) return s.error();
+    }
     return compiled;
 }
 
@@ -227,6 +255,10 @@ Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOp
     if (makes(options, "silmap")) {
         auto built = compile_silhouette_map(scene, silmap_request(options, scene.extent), progress.sink());
         if (const Status s = add_silmap(std::move(built), diagnostics, compiled); !s) return s.error();
+    }
+    if (makes(options, "pinchmap")) {
+        auto built = compile_pinched(scene, pinchmap_request(options, scene.extent), progress.sink());
+        if (const Status s = add_pinchmap(std::move(built), diagnostics, compiled); !s) return s.error();
     }
     return compiled;
 }
@@ -266,6 +298,7 @@ CompileOutcome outcome_of(const Job& job, const Compiled& compiled) {
     }
     if (compiled.bilevel) outcome.bilevel = outcome_of(compiled.bilevel->build);
     if (compiled.silmap) outcome.silmap = silmap_outcome(*compiled.silmap);
+    if (compiled.pinchmap) outcome.pinchmap = pinchmap_outcome(*compiled.pinchmap);
     outcome.report = compiled.report;
     return outcome;
 }
@@ -283,6 +316,7 @@ Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& 
     if (compiled.value().fbt) file.fbt = std::move(compiled.value().fbt->texture);
     if (compiled.value().bilevel) file.bilevel = std::move(compiled.value().bilevel->build.texture);
     if (compiled.value().silmap) file.silmap = std::move(compiled.value().silmap->texture);
+    if (compiled.value().pinchmap) file.pinchmap = std::move(compiled.value().pinchmap->texture);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
@@ -343,8 +377,9 @@ Status check_inputs(const CompileCommandOptions& options) {
     if (const Status status = check_representations(options); !status) return status.error();
     const ImageOptions& image = options.image;
     if (makes(options, "bilevel") && options.size.automatic)
-        return usage("--size auto chooses sizes for --repr fbt and silmap");
-    if (options.samples == "rgb8" && makes(options, "fbt")) return usage("--samples rgb8 is for --repr silmap alone");
+        return usage("--size auto chooses sizes for --repr fbt, silmap and pinchmap");
+    if (options.samples == "rgb8" && makes(options, "fbt"))
+        return usage("--samples rgb8 is for --repr silmap and pinchmap alone");
     if (options.silmap.max_wrong_ppm > 0 && !size_chosen(options))
         return usage("--max-wrong goes with --size auto or --max-bytes");
     if (options.bilevel.above_image == "-") return usage("--above-image takes a file, not stdin");
@@ -413,14 +448,14 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("PATH");
     app->add_option("--repr", options->representations,
                     "Representations: fbt (feature-based texture, default), bilevel (bi-level texture), silmap "
-                    "(silhouette-map texture), or several of them")
+                    "(silhouette-map texture), pinchmap, or several of them")
         ->delimiter(',')
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");
     CLI::Option* size = add_size_or_auto_option(
         *app, options->size,
         "Texels: both sides, or the longer one (default 128); auto: of an FBT as few as cheap lookups need, of a "
-        "silhouette-map texture as few as --max-wrong lets");
+        "silhouette-map texture or a pinchmap as few as --max-wrong lets");
     app->add_option("--max-bytes", options->max_bytes,
                     "The largest size, to 1/64, with at most so many bytes on the GPU; of each representation")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
@@ -433,7 +468,7 @@ Command add_compile_command(CLI::App& parent) {
                "--samples", options->samples,
                "Colours (of an FBT those of gradients) in 8 (default) or 16 bits a channel, or as 16-bit floats, which "
                "of an --image keep what is brighter than white; rgb8: 8 bits without alpha, of a silhouette-map "
-               "texture")
+               "texture or a pinchmap's signal")
             ->check(CLI::IsMember({"8", "16", "float", "rgb8"}))
             ->type_name("FORMAT");
     app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the output")
@@ -445,9 +480,14 @@ Command add_compile_command(CLI::App& parent) {
         ->type_name("FORMAT");
     app->add_option("--depfile", options->depfile, "Write a dependency file for Make or Ninja")->type_name("FILE");
     add_image_options(*app, options->image);
-    options->only_for = {{add_bilevel_options(*app, options->bilevel), {"bilevel"}},
-                         {add_silmap_options(*app, options->silmap), {"silmap"}},
-                         {{samples}, {"fbt", "silmap"}},
+    const BilevelCliOptions bilevel = add_bilevel_options(*app, options->bilevel);
+    const SilmapCliOptions silmap = add_silmap_options(*app, options->silmap);
+    options->only_for = {{bilevel.own, {"bilevel"}},
+                         {{bilevel.silhouette}, {"bilevel", "pinchmap"}},
+                         {silmap.own, {"silmap"}},
+                         {{silmap.max_wrong}, {"silmap", "pinchmap"}},
+                         {add_pinchmap_options(*app, options->pinchmap), {"pinchmap"}},
+                         {{samples}, {"fbt", "silmap", "pinchmap"}},
                          {{app->get_option("--features"), app->get_option("--trace"), app->get_option("--invalidate")},
                           {"fbt", "silmap"}}};
     add_scene_options(*app, options->scene);
@@ -456,8 +496,8 @@ Command add_compile_command(CLI::App& parent) {
         ->check(CLI::IsMember(skip_rule_names()))
         ->group(""); // hidden
     add_quiet_option(*app, options->quiet);
-    return {app, [options, size] {
-                options->size_given = size->count() > 0;
+    return {app, [options, size, silhouette = bilevel.silhouette] {
+                options->size_given = size->count() > 0, options->silhouette_given = silhouette->count() > 0;
                 return run_compile(*options);
             }};
 }

@@ -6,19 +6,13 @@
 namespace fetexc::cli {
 namespace {
 
-fetex::SilmapSampleFormat sample_format(const std::string& name) {
-    if (name == "16") return fetex::SilmapSampleFormat::Rgba16;
-    if (name == "float") return fetex::SilmapSampleFormat::Rgba16F;
-    return name == "rgb8" ? fetex::SilmapSampleFormat::Rgb8 : fetex::SilmapSampleFormat::Rgba8;
-}
-
 template <class Input>
 Result<SilmapBuild> compile_input(const Input& input, const SilmapRequest& request, const ProgressSink& progress) {
     SilmapOptions options;
     options.size = request.size;
     options.cell_format =
         request.how.cell_bits == 16 ? fetex::SilmapCellFormat::Bits16 : fetex::SilmapCellFormat::Bits8;
-    options.sample_format = sample_format(request.samples);
+    options.sample_format = silmap_sample_format(request.samples);
     options.mips = request.mips, options.threads = request.threads, options.skip = request.skip;
     if (!request.automatic && request.max_bytes == 0) return compile_silmap(input, options, progress);
     return compile_silmap_at_chosen_size(input, options, request.max_bytes, request.how.max_wrong_ppm / 1e6, progress);
@@ -46,6 +40,12 @@ std::uint32_t cell_bits(const fetex::SilmapTexture& texture) {
     return texture.cell_format == fetex::SilmapCellFormat::Bits16 ? 16 : 8;
 }
 
+fetex::SilmapSampleFormat silmap_sample_format(const std::string& name) {
+    if (name == "16") return fetex::SilmapSampleFormat::Rgba16;
+    if (name == "float") return fetex::SilmapSampleFormat::Rgba16F;
+    return name == "rgb8" ? fetex::SilmapSampleFormat::Rgb8 : fetex::SilmapSampleFormat::Rgba8;
+}
+
 const char* silmap_samples_name(fetex::SilmapSampleFormat format) {
     switch (format) {
     case fetex::SilmapSampleFormat::Rgba8:
@@ -60,19 +60,20 @@ const char* silmap_samples_name(fetex::SilmapSampleFormat format) {
     return "";
 }
 
-std::vector<CLI::Option*> add_silmap_options(CLI::App& app, SilmapCommandOptions& options) {
+SilmapCliOptions add_silmap_options(CLI::App& app, SilmapCommandOptions& options) {
     CLI::Option* bits = app.add_option("--cell-bits", options.cell_bits,
                                        "Of a silhouette-map texture: bits a cell, 8 (default; points at 8 x 8 places) "
                                        "or 16 (128 x 128)")
                             ->check(CLI::IsMember({8, 16}))
                             ->type_name("N");
     CLI::Option* wrong =
-        app.add_option("--max-wrong", options.max_wrong_ppm,
-                       "Of a silhouette-map texture whose size is chosen: the smallest that shows at most so many "
-                       "millionths of the picture in the wrong region (--size auto alone: 1000)")
+        app.add_option(
+               "--max-wrong", options.max_wrong_ppm,
+               "Of a silhouette-map texture or a pinchmap whose size is chosen: the smallest that shows at most "
+               "so many millionths of the picture on the wrong side of an edge (--size auto alone: 1000)")
             ->check(number_range(0.1, 1e6))
             ->type_name("PPM");
-    return {bits, wrong};
+    return {{bits}, wrong};
 }
 
 } // namespace fetexc::cli

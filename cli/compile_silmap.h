@@ -41,9 +41,14 @@ std::string options_text(const SilmapRequest& request);
 /// 8 or 16.
 std::uint32_t cell_bits(const fetex::SilmapTexture& texture);
 /// As `compile --samples` names it: 8, 16, float, rgb8.
+fetex::SilmapSampleFormat silmap_sample_format(const std::string& name);
 const char* silmap_samples_name(fetex::SilmapSampleFormat format);
 
-/// --cell-bits, --max-wrong.
-std::vector<CLI::Option*> add_silmap_options(CLI::App& app, SilmapCommandOptions& options);
+/// --cell-bits; --max-wrong, which pinchmaps have as well.
+struct SilmapCliOptions {
+    std::vector<CLI::Option*> own;
+    CLI::Option* max_wrong = nullptr;
+};
+SilmapCliOptions add_silmap_options(CLI::App& app, SilmapCommandOptions& options);
 
 } // namespace fetexc::cli

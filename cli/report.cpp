@@ -8,6 +8,7 @@
 #include "cli/compile_bilevel.h"
 #include "cli/messages.h"
 #include "cli/report_planar.h"
+#include "cli/report_traces.h"
 #include "cli/version.h"
 #include "formats/fetex_file.h"
 
@@ -55,23 +56,6 @@ std::string image_text(const ImageStats& i, bool features) {
         i.width, i.height, i.pixels_invalid, i.holes_filled, i.parts_unsampled, i.floating, i.fit_steps);
 }
 
-/// Wrong ppm after each step.
-std::vector<double> trace_ppm(const BilevelFit& fit) {
-    std::vector<double> ppm;
-    for (const double wrong : fit.trace)
-        ppm.push_back(1e6 * wrong);
-    return ppm;
-}
-
-/// After steps 1, 2, 4 … and the last.
-std::string trace_text(const BilevelFit& fit) {
-    const std::vector<double> ppm = trace_ppm(fit);
-    std::string text;
-    for (std::size_t step = 1; step < ppm.size(); step *= 2)
-        text += fmt::format("{:.0f} ", ppm[step - 1]);
-    return ppm.empty() ? "nothing to fit" : text + fmt::format("{:.0f}", ppm.back());
-}
-
 std::string fit_text(const BilevelFit& f) {
     const double texels = static_cast<double>(f.width) * f.height;
     const std::uint32_t channels = fetex::bilevel_channels(f.rule);
@@ -82,7 +66,7 @@ std::string fit_text(const BilevelFit& f) {
     text += fmt::format("             {} steps of the contour{}, then {} values tried, {} islands mended; ppm after "
                         "steps 1, 2, 4 … {}: {}\n",
                         f.contour_steps, f.paper_start ? " from the paper's equations" : "", f.bytes_tried,
-                        f.parts_mended, f.trace.size(), trace_text(f));
+                        f.parts_mended, f.trace.size(), trace_text(f.trace));
     return text;
 }
 
@@ -167,7 +151,7 @@ Json fit_json(const BilevelFit& f) {
             {"contourSteps", f.contour_steps},
             {"bytesTried", f.bytes_tried},
             {"partsMended", f.parts_mended},
-            {"tracePpm", trace_ppm(f)}};
+            {"tracePpm", trace_ppm(f.trace)}};
 }
 
 Json bilevel_json(const BilevelOutcome& b) {
@@ -210,7 +194,8 @@ struct FirstTexture {
 FirstTexture first_texture(const CompileOutcome& o) {
     if (o.has_fbt) return {o.width, o.height, o.gpu_bytes};
     if (o.bilevel) return {o.bilevel->width, o.bilevel->height, o.bilevel->gpu_bytes};
-    return {o.silmap->width, o.silmap->height, o.silmap->stats.gpu_bytes};
+    if (o.silmap) return {o.silmap->width, o.silmap->height, o.silmap->stats.gpu_bytes};
+    return {o.pinchmap->width, o.pinchmap->height, o.pinchmap->stats.gpu_bytes};
 }
 
 std::string representations(const CompileOutcome& o) {
@@ -218,6 +203,7 @@ std::string representations(const CompileOutcome& o) {
     if (o.has_fbt) names.emplace_back("fbt");
     if (o.bilevel) names.emplace_back("bilevel");
     if (o.silmap) names.emplace_back("silmap");
+    if (o.pinchmap) names.emplace_back("pinchmap");
     return fmt::format("{}", fmt::join(names, ","));
 }
 
@@ -241,6 +227,7 @@ Json outcome_json(const CompileOutcome& o) {
     }
     if (o.bilevel) json["bilevel"] = bilevel_json(*o.bilevel);
     if (o.silmap) json["silmap"] = silmap_json(*o.silmap);
+    if (o.pinchmap) json["pinchmap"] = pinchmap_json(*o.pinchmap);
     json["diagnostics"] = diagnostics_json(o.report.diagnostics);
     if (o.report.image.width != 0) json["image"] = image_json(o.report.image);
     return json;
@@ -300,6 +287,7 @@ std::string report_text(const CompileOutcome& o) {
     if (o.has_fbt) text += fbt_report_text(o);
     if (o.bilevel) text += bilevel_text(*o.bilevel);
     if (o.silmap) text += silmap_text(*o.silmap);
+    if (o.pinchmap) text += pinchmap_text(*o.pinchmap);
     return text;
 }
 
