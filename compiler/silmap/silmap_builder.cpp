@@ -9,6 +9,7 @@
 #include "compiler/parallel.h"
 #include "compiler/silmap/cell_fit.h"
 #include "compiler/silmap/cell_reader.h"
+#include "compiler/silmap/lend.h"
 #include "compiler/silmap/misfits.h"
 #include "formats/fbt_samples.h"
 
@@ -60,7 +61,10 @@ void count_cells(const SilmapCells& cells, SilmapStats& stats) {
     stats.cells = (std::uint64_t{cells.width} + 1) * (std::uint64_t{cells.height} + 1);
     stats.cells_empty = stats.cells - cells.cells.size();
     for (const SilmapCellData& c : cells.cells) {
-        if (c.boundaries == 0) continue;
+        if (c.boundaries == 0) {
+            stats.cells_empty += c.plain ? 1 : 0;
+            continue;
+        }
         ++stats.cells_edge;
         stats.cells_corner += c.corners > 0 ? 1 : 0;
     }
@@ -90,19 +94,25 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
         (options.effort == SilmapEffort::Auto && cells_with_edges(map.value()) <= kSilmapThoroughCells);
     std::optional<ReadCells> drawing =
         read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, thorough),
-                   options.threads, options.skip, build.report.planar);
+                   thorough && options.lend, options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
-    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
-    if (!lost) return inconsistent();
     link_cells(cells, options.threads);
     const double area = static_cast<double>(cells.width) * cells.height;
     build.stats.wrong_area_seed = wrong_area_of(cells) / area;
     if (progress) progress("silmap", 0.5);
-    count_cells(cells, build.stats);
     const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
     build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
+    std::vector<std::uint32_t> lent;
+    if (thorough && options.lend) {
+        lent = lend_results(cells, options.cell_format, build.stats.positions_tried);
+        build.stats.positions_tried += fit_points(cells, options.cell_format, thorough, options.threads).positions;
+    }
+    build.stats.texels_lent = lent.size();
+    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, lent, options.threads);
+    if (!lost) return inconsistent();
     build.stats.wrong_area = wrong_area_of(cells) / area;
+    count_cells(cells, build.stats);
     report_misfits(cells, *lost, build.stats, build.report.diagnostics);
     fetex::SilmapTexture& t = build.texture;
     t.width = cells.width, t.height = cells.height;
