@@ -2,6 +2,7 @@
 #include "compiler/silmap/lend.h"
 
 #include <algorithm>
+#include <map>
 
 #include "compiler/silmap/point_moves.h"
 
@@ -21,33 +22,46 @@ std::span<const std::int64_t> strides_of(fetex::SilmapCellFormat format) {
 class Lender {
   public:
     Lender(SilmapCells& cells, fetex::SilmapCellFormat format)
-        : cells_(cells), format_(format), moves_(cells, format), own_(cells.results) {}
+        : cells_(cells), format_(format), moves_(cells, format), changed_(cells.cells.size(), 1) {}
 
     std::vector<std::uint32_t> run() {
-        bool lent = true;
-        for (int round = 0; round < kRounds && lent; ++round) {
-            lent = false;
-            for (std::uint32_t j = 0; j < cells_.height; ++j) {
-                for (std::uint32_t i = 0; i < cells_.width; ++i)
-                    lent = try_texel(i, j) || lent;
+        for (int round = 0; round < kRounds; ++round) {
+            for (std::uint32_t k = 0; k < changed_.size(); ++k) {
+                const SilmapCellData& c = cells_.cells[k];
+                if (c.i == cells_.width || c.j == cells_.height || std::exchange(changed_[k], std::uint8_t{0}) == 0)
+                    continue;
+                if (try_texel(c.i, c.j)) mark_around(c.i, c.j);
             }
         }
         std::vector<std::uint32_t> out;
-        for (std::uint32_t k = 0; k < own_.size(); ++k) {
-            if (own_[k] != cells_.results[k]) out.push_back(k);
+        for (const auto& [texel, had] : had_) {
+            if (cells_.results[texel] != had) out.push_back(texel);
         }
         return out;
     }
     [[nodiscard]] std::uint64_t tried() const { return moves_.tried(); }
 
   private:
+    /// Texels whose cells, or what those are linked to, have changed.
+    void mark_around(std::uint32_t i, std::uint32_t j) {
+        constexpr std::uint32_t reach = 2;
+        for (std::uint32_t y = j - std::min(j, reach); y <= std::min(j + reach, cells_.height); ++y) {
+            for (std::uint32_t x = i - std::min(i, reach); x <= std::min(i + reach, cells_.width); ++x) {
+                if (const SilmapCellData* c = cells_.find(x, y)) changed_[index_of(*c)] = 1;
+            }
+        }
+    }
+    [[nodiscard]] std::uint32_t index_of(const SilmapCellData& c) const {
+        return static_cast<std::uint32_t>(&c - cells_.cells.data());
+    }
+
     /// Its four cells, and what they are linked to.
     bool gather(std::uint32_t i, std::uint32_t j) {
         ring_.clear(), around_.clear();
         for (const auto& [di, dj] : {std::pair(0u, 0u), {1u, 0u}, {0u, 1u}, {1u, 1u}}) {
             const SilmapCellData* c = cells_.find(i + di, j + dj);
             if (c == nullptr) return false;
-            ring_.push_back(static_cast<std::uint32_t>(c - cells_.cells.data()));
+            ring_.push_back(index_of(*c));
         }
         around_ = ring_;
         for (const std::uint32_t k : ring_) {
@@ -116,7 +130,10 @@ class Lender {
                     moves_.walk(k, 1);
             }
         }
-        if (wrong_in(around_) < before - kWorthLending) return true;
+        if (wrong_in(around_) < before - kWorthLending) {
+            had_.emplace(static_cast<std::uint32_t>(texel), had); // the first time: its own
+            return true;
+        }
         cells_.results[texel] = had;
         for (std::size_t k = 0; k < around_.size(); ++k)
             cells_.cells[around_[k]] = saved_[k];
@@ -126,7 +143,9 @@ class Lender {
     SilmapCells& cells_;
     fetex::SilmapCellFormat format_;
     PointMoves moves_;
-    std::vector<ResultId> own_, candidates_;
+    std::vector<ResultId> candidates_;
+    std::vector<std::uint8_t> changed_;     ///< by a texel's first cell, since it was tried
+    std::map<std::uint32_t, ResultId> had_; ///< of texels: what is in their middle
     std::vector<std::uint32_t> ring_, around_;
     std::vector<SilmapCellData> saved_;
 };
