@@ -116,20 +116,27 @@ bool one_result(const SilmapCells& cells, std::uint32_t i, std::uint32_t j) {
     return first == cells.corner(i, j, 1) && first == cells.corner(i, j, 2) && first == cells.corner(i, j, 3);
 }
 
-/// Cells without edges whose corners differ: an edge runs along a side.
+/// Cells without edges whose corners differ, an edge running along a side; near: and those next to cells with edges.
 std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j,
-                                       const std::vector<SilmapCellData>& edged, fetex::SilmapCellFormat format,
-                                       TruthSlabs& truth) {
+                                       const std::vector<std::vector<SilmapCellData>>& edged, bool near,
+                                       fetex::SilmapCellFormat format, TruthSlabs& truth) {
+    std::vector<bool> wanted(std::size_t{cells.width} + 1, false);
+    for (std::uint32_t row = j > 0 ? j - 1 : 0; near && row <= std::min(j + 1, cells.height); ++row) {
+        for (const SilmapCellData& c : edged[row]) {
+            for (std::uint32_t i = c.i > 0 ? c.i - 1 : 0; i <= std::min(c.i + 1, cells.width); ++i)
+                wanted[i] = true;
+        }
+    }
     std::vector<SilmapCellData> out;
-    auto next = edged.begin();
+    auto next = edged[j].begin();
     for (std::uint32_t i = 0; i <= cells.width; ++i) {
-        if (next != edged.end() && next->i == i) {
+        if (next != edged[j].end() && next->i == i) {
             out.push_back(*next++);
             continue;
         }
-        if (one_result(cells, i, j)) continue;
+        if (!wanted[i] && one_result(cells, i, j)) continue;
         SilmapCellData c;
-        c.i = i, c.j = j;
+        c.i = i, c.j = j, c.plain = true;
         place(c, fetex::silmap_step(format, 0.5), fetex::silmap_step(format, 0.5), format);
         c.first_slab = static_cast<std::uint32_t>(truth.slabs.size()), c.slabs = 1;
         TruthBuilder::add_plain(cells.inside(i, j), cells.box(c), truth);
@@ -141,7 +148,7 @@ std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j
 /// notes(j): of a row.
 template <class Notes>
 std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
                                     const SkipRules& skip, const Notes& notes, PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
@@ -160,10 +167,11 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     if (std::ranges::find(good, 0) != good.end()) return std::nullopt;
     for (const PlanarStats& s : row_stats)
         add(stats, s);
+    std::vector<std::vector<SilmapCellData>> all(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
-        edged[j] = with_plain(out, static_cast<std::uint32_t>(j), edged[j], format, out.truth[j]);
+        all[j] = with_plain(out, static_cast<std::uint32_t>(j), edged, near, format, out.truth[j]);
     });
-    for (const std::vector<SilmapCellData>& row : edged) {
+    for (const std::vector<SilmapCellData>& row : all) {
         out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
         out.cells.insert(out.cells.end(), row.begin(), row.end());
     }
@@ -183,13 +191,13 @@ std::uint64_t cells_with_edges(const PlanarMap& map) {
 }
 
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
                                     const SkipRules& skip, PlanarStats& stats) {
     std::vector<PartsRow> parts;
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         parts.emplace_back(map, j);
     const auto notes = [&](std::size_t j) { return RowNotes{&parts[j], nullptr}; };
-    auto cells = read_all(map, scene, compositor, format, chord, threads, skip, notes, stats);
+    auto cells = read_all(map, scene, compositor, format, chord, near, threads, skip, notes, stats);
     if (!cells) return std::nullopt;
     return ReadCells{std::move(*cells), std::move(parts)};
 }
@@ -202,7 +210,7 @@ std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene&
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         faces.emplace_back(map, j);
     const auto notes = [&](std::size_t j) { return RowNotes{nullptr, &faces[j]}; };
-    auto out = read_all(map, features, unasked, format, chord, threads, skip, notes, stats);
+    auto out = read_all(map, features, unasked, format, chord, false, threads, skip, notes, stats);
     if (!out) return out;
     out->of_features = true;
     if (!find_boundaries(*out, map, faces, threads)) return std::nullopt;

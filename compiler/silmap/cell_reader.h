@@ -20,9 +20,10 @@ struct ReadCells {
 };
 
 /// map: of make_cell_grid. Points are seeds (point_seed.h); corners, links and areas aren't there yet (link_cells).
-/// chord: cells; what chords may miss edges by. None: the map contradicts itself.
+/// chord: cells; what chords may miss edges by. near: with the cells next to those with edges. None: the map
+/// contradicts itself.
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, unsigned threads,
+                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
                                     const SkipRules& skip, PlanarStats& stats);
 
 /// The same of features over an image (feature_scene): each face of a cell is a result of its own.

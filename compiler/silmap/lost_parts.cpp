@@ -39,7 +39,7 @@ void PartsRow::add_cell(const TexelMap& cell, bool middle) {
 class PartsFinder {
   public:
     static std::optional<LostParts> run(const PlanarMap& map, std::vector<PartsRow>& rows, const SilmapCells& cells,
-                                        unsigned threads) {
+                                        std::span<const std::uint32_t> lent, unsigned threads) {
         std::vector<ReachabilityRow> reach;
         for (PartsRow& row : rows)
             reach.push_back(std::move(row.reach_));
@@ -50,6 +50,15 @@ class PartsFinder {
         for (std::uint32_t j = 0; j < rows.size(); ++j) {
             for (std::uint32_t v = 0; v < rows[j].seen_.size(); ++v) {
                 if (rows[j].seen_[v]) seen[part[graph.row_start(j) + v]] = true;
+            }
+        }
+        for (const std::uint32_t texel : lent) {
+            const std::uint32_t i = texel % cells.width, j = texel / cells.width;
+            for (const auto& [di, dj] : {std::pair(0u, 0u), {1u, 0u}, {0u, 1u}, {1u, 1u}}) {
+                for (std::uint32_t v = graph.first_vertex(i + di, j + dj);
+                     v < graph.row_start(j + dj + 1) && graph.column(v) <= i + di; ++v) {
+                    if (graph.result(v) == cells.results[texel]) seen[part[v]] = true;
+                }
             }
         }
         std::map<std::uint32_t, double> areas; // of lost parts
@@ -76,8 +85,8 @@ class PartsFinder {
 };
 
 std::optional<LostParts> lost_parts(const PlanarMap& map, std::vector<PartsRow>& rows, const SilmapCells& cells,
-                                    unsigned threads) {
-    return PartsFinder::run(map, rows, cells, threads);
+                                    std::span<const std::uint32_t> lent, unsigned threads) {
+    return PartsFinder::run(map, rows, cells, lent, threads);
 }
 
 } // namespace fetexc

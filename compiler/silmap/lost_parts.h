@@ -37,8 +37,9 @@ struct LostParts {
     std::uint32_t i = 0, j = 0; ///< its first cell
 };
 
-/// None: the map contradicts itself.
+/// lent: texels with a result that isn't that of their middle; they show what has it in the cells around. None: the map
+/// contradicts itself.
 std::optional<LostParts> lost_parts(const PlanarMap& map, std::vector<PartsRow>& rows, const SilmapCells& cells,
-                                    unsigned threads);
+                                    std::span<const std::uint32_t> lent, unsigned threads);
 
 } // namespace fetexc

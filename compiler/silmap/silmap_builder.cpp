@@ -10,6 +10,7 @@
 #include "compiler/parallel.h"
 #include "compiler/silmap/cell_fit.h"
 #include "compiler/silmap/cell_reader.h"
+#include "compiler/silmap/lend.h"
 #include "compiler/silmap/misfits.h"
 #include "formats/fbt_samples.h"
 
@@ -70,7 +71,10 @@ void count_cells(const SilmapCells& cells, SilmapStats& stats) {
     stats.cells = (std::uint64_t{cells.width} + 1) * (std::uint64_t{cells.height} + 1);
     stats.cells_empty = stats.cells - cells.cells.size();
     for (const SilmapCellData& c : cells.cells) {
-        if (c.boundaries == 0) continue;
+        if (c.boundaries == 0) {
+            stats.cells_empty += c.plain ? 1 : 0;
+            continue;
+        }
         ++stats.cells_edge;
         stats.cells_corner += c.corners > 0 ? 1 : 0;
     }
@@ -84,15 +88,24 @@ Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options,
     return PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
 }
 
-/// Everything but colours.
-void fit_cells(SilmapCells& cells, const LostParts& lost, const SilmapOptions& options, bool thorough,
-               SilmapBuild& build) {
-    const double area = static_cast<double>(cells.width) * cells.height;
+void fit(SilmapCells& cells, const SilmapOptions& options, bool thorough, SilmapStats& stats) {
     link_cells(cells, options.threads);
-    build.stats.wrong_area_seed = wrong_area_of(cells) / area;
+    stats.wrong_area_seed = wrong_area_of(cells) / (static_cast<double>(cells.width) * cells.height);
     const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
-    build.stats.fit_rounds = counts.rounds, build.stats.positions_tried = counts.positions;
-    build.stats.wrong_area = wrong_area_of(cells) / area;
+    stats.fit_rounds = counts.rounds, stats.positions_tried = counts.positions;
+}
+
+/// Texels that lent their colour to thin parts beside them.
+std::vector<std::uint32_t> lend(SilmapCells& cells, const SilmapOptions& options, SilmapStats& stats) {
+    std::vector<std::uint32_t> lent = lend_results(cells, options.cell_format, stats.positions_tried);
+    stats.positions_tried += fit_points(cells, options.cell_format, true, options.threads).positions;
+    stats.texels_lent = lent.size();
+    return lent;
+}
+
+/// Everything but colours.
+void write_cells(const SilmapCells& cells, const LostParts& lost, const SilmapOptions& options, SilmapBuild& build) {
+    build.stats.wrong_area = wrong_area_of(cells) / (static_cast<double>(cells.width) * cells.height);
     count_cells(cells, build.stats);
     report_misfits(cells, lost, build.stats, build.report.diagnostics);
     fetex::SilmapTexture& t = build.texture;
@@ -129,13 +142,16 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool thorough = is_thorough(options, map.value());
     std::optional<ReadCells> drawing =
         read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, thorough),
-                   options.threads, options.skip, build.report.planar);
+                   thorough && options.lend, options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
-    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, options.threads);
-    if (!lost) return inconsistent();
     if (progress) progress("silmap", 0.5);
-    fit_cells(cells, *lost, options, thorough, build);
+    fit(cells, options, thorough, build.stats);
+    std::vector<std::uint32_t> lent;
+    if (thorough && options.lend) lent = lend(cells, options, build.stats);
+    const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, lent, options.threads);
+    if (!lost) return inconsistent();
+    write_cells(cells, *lost, options, build);
     build.texture.colors = colors_of(scene, compositor, cells, options);
     finish(options, build);
     return build;
@@ -157,7 +173,8 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
         read_feature_cells(map.value(), picture.features, options.cell_format, chord_of(options.cell_format, thorough),
                            options.threads, options.skip, build.report.planar);
     if (!cells) return inconsistent();
-    fit_cells(*cells, {}, options, thorough, build);
+    fit(*cells, options, thorough, build.stats);
+    write_cells(*cells, {}, options, build);
     const std::size_t words = words_of(options);
     build.texture.colors.resize(words * cells->results.size());
     for (std::uint32_t j = 0; j < cells->height; ++j) {

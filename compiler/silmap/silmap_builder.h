@@ -23,6 +23,8 @@ struct SilmapOptions {
     unsigned threads = 1; ///< 0: all; never changes a byte of the output
     SkipRules skip = {};  ///< nor do these
     SilmapEffort effort = SilmapEffort::Auto;
+    bool lend =
+        true; ///< thorough: a texel may have the colour of a region beside its middle, for features thinner than it
 };
 
 /// Deterministic: no times in here.

@@ -88,6 +88,12 @@ void SilmapCells::measure(SilmapCellData& c) const {
     }
 }
 
+void relink_cell(SilmapCells& cells, SilmapCellData& c) {
+    link(cells, c);
+    c.shown.exit = exits_of(cells, c, c.shown.point);
+    cells.measure(c);
+}
+
 void link_cells(SilmapCells& cells, unsigned threads) {
     constexpr std::size_t chunk = 256;
     const auto each = [&](const auto& visit) {

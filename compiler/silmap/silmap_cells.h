@@ -31,6 +31,7 @@ struct SilmapCellData {
     std::uint32_t first_slab = 0, slabs = 0;
     std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
     std::uint32_t corners = 0;      ///< of the drawing, inside
+    bool plain = false;             ///< no edges inside
     /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
     std::array<ResultId, 4> faces{};
     std::uint32_t apart = 0;
@@ -62,6 +63,9 @@ struct SilmapCells {
 
 /// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
 void link_cells(SilmapCells& cells, unsigned threads);
+
+/// The same of one cell, after a texel at a corner of it has got another result.
+void relink_cell(SilmapCells& cells, SilmapCellData& c);
 
 /// Where the neighbour's point is, in the cell's frame. Precondition: the link is a boundary.
 fetex::SilmapPoint point_across(const SilmapCells& cells, const SilmapCellData& c, const fetex::SilmapPoint& point,

@@ -77,7 +77,7 @@ TEST_P(SilmapArea, isTheShareOfWrongPoints) {
     for (std::uint64_t seed = 1; seed <= 140; ++seed) {
         const Scene scene = random_scene(seed, seed % 2 == 0 ? RandomSceneOptions{} : opaque_solids(6));
         SilmapOptions options;
-        options.cell_format = GetParam(), options.threads = 0;
+        options.cell_format = GetParam(), options.threads = 0, options.lend = false;
         const std::uint32_t size = seed % 10 == 0 ? 1 : static_cast<std::uint32_t>(random.integer(2, 40));
         options.size = grid_for(scene.extent, size);
         const auto made = compile_silmap(scene, options);
@@ -93,6 +93,37 @@ TEST_P(SilmapArea, isTheShareOfWrongPoints) {
     }
     std::printf("  %d scenes, worst: %.2f deviations\n", compared, worst);
     EXPECT_GE(compared, 40);
+}
+
+/// Where texels have the results of regions beside their middles, by colours.
+TEST_P(SilmapArea, isTheShareOfWrongPointsWhereTexelsAreLent) {
+    constexpr std::uint32_t kSide = 200;
+    Random random(3);
+    std::uint64_t lent = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const Scene scene = random_scene(seed, opaque_solids(8));
+        SilmapOptions options;
+        options.cell_format = GetParam(), options.threads = 0;
+        options.size = grid_for(scene.extent, static_cast<std::uint32_t>(random.integer(5, 30)));
+        const auto made = compile_silmap(scene, options);
+        ASSERT_TRUE(made.ok()) << seed;
+        const SilmapTexture& t = made.value().texture;
+        lent += made.value().stats.texels_lent;
+        const GroundTruth truth(scene);
+        int wrong = 0;
+        for (std::uint32_t k = 0; k < kSide * kSide; ++k) {
+            const double u = (k % kSide + random.between(0, 1)) / kSide, v = (k / kSide + random.between(0, 1)) / kSide;
+            const Rgba is = truth.color_at(u * static_cast<double>(scene.extent.lattice_w),
+                                           v * static_cast<double>(scene.extent.lattice_h));
+            const FbtColor shows = silmap_sample(t, u * t.width, v * t.height, SilmapFilter::Nearest);
+            wrong += std::max({std::abs(is.r - shows.r), std::abs(is.g - shows.g), std::abs(is.b - shows.b),
+                               std::abs(is.a - shows.a)}) > 1.0 / 255;
+        }
+        const double said = made.value().stats.wrong_area,
+                     deviation = std::sqrt(std::max(said, 1e-4) * (1 - said)) / kSide;
+        EXPECT_NEAR(said, static_cast<double>(wrong) / kSide / kSide, 2.5 * deviation) << "seed " << seed;
+    }
+    EXPECT_GT(lent, 100u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, SilmapArea, testing::Values(SilmapCellFormat::Bits8, SilmapCellFormat::Bits16));
