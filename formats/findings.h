@@ -8,7 +8,7 @@
 namespace fetex {
 
 /// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture, 3xxx of a
-/// silhouette-map texture.
+/// silhouette-map texture, 5xxx of a texture with feature curves.
 enum class FindingCode : std::uint16_t {
     Truncated = 101,          ///< the file ends before its stated length
     BadMagic = 102,           ///< not a .fetex file, or mangled by a text transfer
@@ -68,10 +68,16 @@ enum class FindingCode : std::uint16_t {
     SilmapFormat = 3002,           ///< unknown cell or sample format; a cell of 8 bits with more
     SilmapNotPremultiplied = 3003, ///< a colour channel exceeds alpha
     SilmapSampleValue = 3004,      ///< as FbtSampleValue; or alpha that isn't 1 in RGB8
+
+    FeatureDimensions = 5001, ///< width, height 1 … 16384; lengths of the arrays
+    FeatureFormat = 5002,     ///< unknown number format; limit of distances
+    FeatureBadTexel = 5003,   ///< not a valid configuration
+    FeatureNumber = 5004,     ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit
+    FeatureUnusedEdge = 5005, ///< an edge that no segment ends on hasn't the default position and angle
 };
 
-/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel and
-/// validate_silmap, of the part the message names.
+/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel,
+/// validate_silmap and validate_feature_curves, of the part the message names.
 struct Finding {
     FindingCode code{};
     std::uint64_t offset = 0;

@@ -7,6 +7,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/feature_curves.h"
 #include "formats/findings.h"
 #include "formats/silmap.h"
 
@@ -37,5 +38,11 @@ inline constexpr std::uint32_t kSilmapMaxSide = 16384;
 /// Findings, at most `limit`; offsets are bytes from the start of the samples as the file has them or of the mips, as
 /// the message says.
 std::vector<Finding> validate_silmap(const SilmapTexture& texture, std::size_t limit = 64);
+
+inline constexpr std::uint32_t kFeatureCurvesMaxSide = 16384;
+
+/// Findings, at most `limit`; offsets are bytes from the start of the header, the configurations, the signatures or the
+/// distances, as the message says.
+std::vector<Finding> validate_feature_curves(const FeatureCurvesTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex
