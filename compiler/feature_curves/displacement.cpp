@@ -49,12 +49,15 @@ class Measure {
             f.kinds |= kLostInside; // nothing goes on where it leaves
             return;
         }
+        f.edges |= k.shape.edges;
         const TexelPoints t(curves_, k.knot.i, k.knot.j);
-        double most = 0;
-        for (const KnotVertex& v : k.knot.vertices)
-            if (!is_end(k.knot, k.shape, v)) most = std::max(most, distance_to_shape(v.at, k.shape, t));
-        if (most > 0 && k.shape.segments != 0) f.kinds |= kVertexCut;
-        f.vertices = std::max(f.vertices, most);
+        Away most;
+        for (const KnotLine& l : k.knot.lines) {
+            const Away a = away(l, k, t);
+            most = {std::max(most.ends, a.ends), std::max(most.detour, a.detour)};
+        }
+        if (most.ends + most.detour > 0 && k.shape.segments != 0) f.kinds |= kVertexCut;
+        f.vertices = std::max(f.vertices, most.ends), f.detour = std::max(f.detour, most.detour);
     }
 
     std::vector<FeatureMove> run() {
@@ -74,11 +77,30 @@ class Measure {
   private:
     struct Found {
         std::uint8_t kinds = 0;
-        double vertices = 0; ///< the farthest of the texel's vertices
+        double vertices = 0, detour = 0; ///< as Away
+        EdgeSet edges = 0;               ///< where knots are joined to others
     };
 
     [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j) const {
         return std::size_t{j} * curves_.width + i;
+    }
+
+    /// Of a knot's lines from its shape: how far their ends are, beyond where edges' points went, and what more it
+    /// takes where the shape joins the ends by way of a third point.
+    struct Away {
+        double ends = 0, detour = 0;
+    };
+    static Away away(const KnotLine& l, const ShownKnot& k, const TexelPoints& t) {
+        const auto end_of = [&](std::uint32_t vertex) { return k.ends[index_in(k.knot, vertex)]; };
+        const auto end_distance = [&](FeatureEdge e, FeaturePoint p) {
+            return e == FeatureEdge{} ? distance_to_shape(p, k.shape, t) : 0.0;
+        };
+        const FeatureEdge from = end_of(l.vertex), to = l.other == kNone ? l.edge : end_of(l.other);
+        Away a{std::max(end_distance(from, l.from), end_distance(to, l.to)), 0};
+        if (from == FeatureEdge{} || to == FeatureEdge{} || from == to) return a;
+        const std::uint32_t segment = segment_between(from, to);
+        if ((k.shape.segments >> segment & 1u) == 0) a.detour = detour(segment, k.shape.segments, t);
+        return a;
     }
 
     static FeatureEdge only_edge(const KnotShape& shape) {
@@ -107,13 +129,13 @@ class Measure {
         const TexelPoints t(curves_, i, j);
         double merged = 0, rerouted = 0;
         for (const FeatureEdge e : fetex::kFeatureEdges)
-            if (edges_of(texel.segments) >> fetex::feature_edge_index(e) & 1u)
+            if ((edges_of(texel.segments) | f.edges) >> fetex::feature_edge_index(e) & 1u)
                 merged = std::max(merged, points_.at(i, j, e).move());
         const auto replaced = static_cast<SegmentSet>(texel.inserted & ~texel.segments);
         for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
             if (replaced >> k & 1u) rerouted = std::max(rerouted, detour(k, texel.segments, t));
         const unsigned kinds = f.kinds | kEdgeMerged * unsigned{merged > 0} | kRerouted * unsigned{replaced != 0};
-        return {i, j, static_cast<std::uint8_t>(kinds), std::max(merged, f.vertices) + rerouted};
+        return {i, j, static_cast<std::uint8_t>(kinds), std::max(merged, f.vertices) + f.detour + rerouted};
     }
 
     const SnappedCurves& curves_;
@@ -133,9 +155,9 @@ void warn(std::vector<Diagnostic>& out, std::uint64_t count, int code, const std
 } // namespace
 
 std::uint8_t missing_kind(const ShownKnot& k) {
-    const auto shown = [&](const KnotVertex& v) { return is_end(k.knot, k.shape, v); };
-    if (k.shape.segments != 0 || std::ranges::all_of(k.knot.vertices, shown)) return 0;
-    if (k.shape.edges == 0) return kLostInside;
+    const auto shown = [](FeatureEdge end) { return end != FeatureEdge{}; };
+    if (k.shape.segments != 0 || std::ranges::all_of(k.ends, shown)) return 0;
+    if (k.knot.arms.empty()) return kLostInside;
     return k.knot.arms.size() > 1 ? kFolded : kEndCut;
 }
 

@@ -14,6 +14,7 @@ namespace fetexc {
 struct ShownKnot {
     Knot knot;
     KnotShape shape;
+    std::vector<fetex::FeatureEdge> ends; ///< ends_of both
 };
 
 /// kEndCut, kFolded, kLostInside, or 0: a segment shows the knot.

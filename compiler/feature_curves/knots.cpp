@@ -69,26 +69,29 @@ class Shaper {
         }
     }
 
-    [[nodiscard]] FeaturePoint centre() const {
-        return std::ranges::max_element(knot_.vertices, {}, &KnotVertex::degree)->at;
-    }
-
     void add_segments() {
         const std::vector<FeatureEdge> joined = edges();
         if (joined.size() == 4) shape_.segments = kCrossing;
         if (joined.size() == 2) insert(joined[0], joined[1]);
         if (joined.size() != 3) return;
-        const FeaturePoint c = boundary_centre();
         shape_.hub = true;
-        shape_.hub_edge = *std::ranges::min_element(joined, {}, [&](FeatureEdge e) { return distance(point(e), c); });
+        shape_.hub_edge = *std::ranges::min_element(joined, {}, [&](FeatureEdge e) { return farthest(e, joined); });
         for (const FeatureEdge e : joined)
             if (e != shape_.hub_edge) insert(shape_.hub_edge, e);
     }
 
-    /// A vertex that became an end, if there is one, else the one with the most lines.
-    [[nodiscard]] FeaturePoint boundary_centre() const {
-        if (shape_.ends.empty()) return centre();
-        return fetex::feature_point(shape_.ends.back().edge, shape_.ends.back().position);
+    /// How far the lines' ends and middles are from segments that meet on the edge.
+    [[nodiscard]] double farthest(FeatureEdge hub, const std::vector<FeatureEdge>& joined) const {
+        const auto away = [&](FeaturePoint p) {
+            double least = distance(p, point(hub));
+            for (const FeatureEdge e : joined)
+                if (e != hub) least = std::min(least, distance_to_chord(p, {point(hub), point(e)}));
+            return least;
+        };
+        double most = 0;
+        for (const KnotLine& l : knot_.lines)
+            most = std::max({most, away(l.from), away(l.to), away({(l.from.x + l.to.x) / 2, (l.from.y + l.to.y) / 2})});
+        return most;
     }
 
     void insert(FeatureEdge a, FeatureEdge b) {
@@ -102,13 +105,26 @@ class Shaper {
 
 } // namespace
 
-bool is_end(const Knot& knot, const KnotShape& shape, const KnotVertex& v) {
-    const auto arm = [&](const KnotArm& a) { return a.vertex == v.vertex && (v.on & bit(a.edge)) != 0; };
-    const auto end = [&](const KnotEnd& e) {
-        const FeaturePoint p = fetex::feature_point(e.edge, e.position);
-        return p.x == v.at.x && p.y == v.at.y;
-    };
-    return v.on != 0 && (std::ranges::any_of(knot.arms, arm) || std::ranges::any_of(shape.ends, end));
+std::size_t index_in(const Knot& knot, std::uint32_t vertex) {
+    const auto at = std::ranges::lower_bound(knot.vertices, vertex, {}, &KnotVertex::vertex);
+    return static_cast<std::size_t>(at - knot.vertices.begin());
+}
+
+std::vector<FeatureEdge> ends_of(const Knot& knot, const KnotShape& shape) {
+    std::vector<FeatureEdge> ends(knot.vertices.size());
+    for (const KnotArm& a : knot.arms) {
+        const std::size_t k = index_in(knot, a.vertex);
+        if (ends[k] == FeatureEdge{} && (knot.vertices[k].on & bit(a.edge)) != 0) ends[k] = a.edge;
+    }
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        const KnotVertex& v = knot.vertices[k];
+        if (v.on == 0 || ends[k] != FeatureEdge{}) continue;
+        for (const KnotEnd& e : shape.ends) {
+            const FeaturePoint p = fetex::feature_point(e.edge, e.position);
+            if (p.x == v.at.x && p.y == v.at.y) ends[k] = e.edge;
+        }
+    }
+    return ends;
 }
 
 KnotShape shape_of(const Knot& knot) { return Shaper(knot).run(); }

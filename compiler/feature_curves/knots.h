@@ -17,7 +17,6 @@ namespace fetexc {
 struct KnotVertex {
     std::uint32_t vertex = 0;
     fetex::FeaturePoint at;
-    std::uint32_t degree = 0; ///< lines that end here
     /// Edges of the texel that it lies on, exactly.
     EdgeSet on = 0;
 };
@@ -28,10 +27,18 @@ struct KnotArm {
     double position = 0;
 };
 
+/// A line between two vertices of a knot, or an arm.
+struct KnotLine {
+    std::uint32_t vertex = 0, other = kNone; ///< other: kNone for an arm
+    fetex::FeatureEdge edge{};               ///< of an arm
+    fetex::FeaturePoint from, to;
+};
+
 struct Knot {
     std::uint32_t i = 0, j = 0;
-    std::span<const KnotVertex> vertices;
+    std::span<const KnotVertex> vertices; ///< by number
     std::span<const KnotArm> arms;
+    std::span<const KnotLine> lines;
 };
 
 /// A point of an edge through which a knot is joined to others.
@@ -49,12 +56,16 @@ struct KnotShape {
     fetex::FeatureEdge hub_edge{};
 };
 
-/// The vertex is a point of the boundary through which the knot is joined to others: it moves as the edge's point does.
-bool is_end(const Knot& knot, const KnotShape& shape, const KnotVertex& v);
+/// For each vertex the edge through which the knot is joined to others right where the vertex lies, so that the vertex
+/// moves as the edge's point does; FeatureEdge{} if there is none.
+std::vector<fetex::FeatureEdge> ends_of(const Knot& knot, const KnotShape& shape);
 
-/// Two edges are joined by a segment, four by the crossing, three by two segments that meet on the edge whose point is
-/// nearest to the vertex with the most lines. Vertices on the boundary that would be cut off become ends there (a curve
-/// may touch an edge and go back, or end on it).
+/// Index of a vertex in the knot's.
+std::size_t index_in(const Knot& knot, std::uint32_t vertex);
+
+/// Two edges are joined by a segment, four by the crossing, three by two segments that meet on one of
+/// them: that from which the knot's lines are the least away. Vertices on the boundary that would be cut off become
+/// ends there (a curve may touch an edge and go back, or end on it).
 KnotShape shape_of(const Knot& knot);
 
 } // namespace fetexc

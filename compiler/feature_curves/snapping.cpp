@@ -99,7 +99,7 @@ class Snapper {
                     insert(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
                            kSegmentBetween[fetex::feature_edge_index(in)][fetex::feature_edge_index(p.out)]);
                 else
-                    arms_.push_back({a, p.out, c.position});
+                    add_arm(a, p.out, c.position);
             }
             in = p.in, position = c.position, crossed = true;
             if (c.vertical)
@@ -108,10 +108,24 @@ class Snapper {
                 j += to.y > from.y ? 1 : -1;
         });
         ++degree_[a], ++degree_[b];
-        if (!crossed)
+        if (crossed) {
+            if (on_canvas(i, j)) add_arm(b, in, position);
+        } else if (on_canvas(i, j)) {
             inside_.unite(a, b);
-        else if (on_canvas(i, j))
-            arms_.push_back({b, in, position});
+            knot_lines_.push_back({a, b, {}, local(a), local(b)});
+        }
+    }
+
+    void add_arm(std::uint32_t vertex, FeatureEdge e, double position) {
+        arms_.push_back({vertex, e, position});
+        knot_lines_.push_back({vertex, kNone, e, local(vertex), fetex::feature_point(e, position)});
+    }
+
+    /// In its texel.
+    [[nodiscard]] fetex::FeaturePoint local(std::uint32_t vertex) const {
+        const PlanarPoint p = planar(vertex);
+        return {static_cast<double>(p.x - grid_.px * column(p)) / static_cast<double>(grid_.px),
+                static_cast<double>(p.y - grid_.py * row(p)) / static_cast<double>(grid_.py)};
     }
 
     [[nodiscard]] KnotVertex knot_vertex(std::uint32_t vertex) const {
@@ -119,39 +133,37 @@ class Snapper {
         const std::int64_t x = p.x - grid_.px * column(p), y = p.y - grid_.py * row(p);
         const auto on = [](bool is, FeatureEdge e) { return is ? 1u << fetex::feature_edge_index(e) : 0u; };
         using enum FeatureEdge;
-        return {vertex,
-                {static_cast<double>(x) / static_cast<double>(grid_.px),
-                 static_cast<double>(y) / static_cast<double>(grid_.py)},
-                degree_[vertex],
+        return {vertex, local(vertex),
                 static_cast<EdgeSet>(on(y == 0, North) | on(x == grid_.px, East) | on(y == grid_.py, South) |
                                      on(x == 0, West))};
     }
 
-    /// Vertices and arms by knot, knots by their first vertex.
+    /// Everything by knot, knots by their first vertex.
     void insert_knots() {
-        const std::size_t n = lines_.vertices.size();
-        for (std::uint32_t v = 0; v < n; ++v)
+        for (std::uint32_t v = 0; v < lines_.vertices.size(); ++v)
             if (degree_[v] > 0 && on_canvas(column(planar(v)), row(planar(v)))) vertices_.push_back(knot_vertex(v));
-        const auto of = [&](std::uint32_t v) { return inside_.find(v); };
-        std::ranges::stable_sort(vertices_, {}, [&](const KnotVertex& v) { return of(v.vertex); });
-        std::ranges::stable_sort(arms_, {}, [&](const KnotArm& a) { return of(a.vertex); });
-        std::size_t arm = 0;
-        for (std::size_t first = 0; first < vertices_.size();) {
-            const std::uint32_t root = of(vertices_[first].vertex);
-            std::size_t end = first;
-            while (end < vertices_.size() && of(vertices_[end].vertex) == root)
-                ++end;
-            const std::size_t first_arm = arm;
-            while (arm < arms_.size() && of(arms_[arm].vertex) == root)
-                ++arm;
-            insert_knot(root, {vertices_.data() + first, end - first}, {arms_.data() + first_arm, arm - first_arm});
-            first = end;
+        const auto knot_of = [&](const auto& part) { return inside_.find(part.vertex); };
+        std::ranges::stable_sort(vertices_, {}, knot_of);
+        std::ranges::stable_sort(arms_, {}, knot_of);
+        std::ranges::stable_sort(knot_lines_, {}, knot_of);
+        std::size_t vertex = 0, arm = 0, line = 0;
+        const auto next = [&](const auto& parts, std::size_t& at, std::uint32_t knot) {
+            const std::size_t first = at;
+            while (at < parts.size() && knot_of(parts[at]) == knot)
+                ++at;
+            return std::span(parts.data() + first, at - first);
+        };
+        while (vertex < vertices_.size()) {
+            const std::uint32_t knot = knot_of(vertices_[vertex]);
+            insert_knot(knot, next(vertices_, vertex, knot), next(arms_, arm, knot), next(knot_lines_, line, knot));
         }
     }
 
-    void insert_knot(std::uint32_t vertex, std::span<const KnotVertex> vertices, std::span<const KnotArm> arms) {
+    void insert_knot(std::uint32_t vertex, std::span<const KnotVertex> vertices, std::span<const KnotArm> arms,
+                     std::span<const KnotLine> lines) {
         const PlanarPoint p = planar(vertex);
-        const Knot knot{static_cast<std::uint32_t>(column(p)), static_cast<std::uint32_t>(row(p)), vertices, arms};
+        const Knot knot{static_cast<std::uint32_t>(column(p)), static_cast<std::uint32_t>(row(p)), vertices, arms,
+                        lines};
         KnotShape shape = shape_of(knot);
         if (shape.segments != 0)
             for (const KnotEnd& end : shape.ends)
@@ -159,7 +171,8 @@ class Snapper {
         for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
             if (shape.segments >> k & 1u) insert(knot.i, knot.j, k);
         if (std::popcount(shape.edges) > 2) ++out_.stats.junctions;
-        knots_.push_back({knot, std::move(shape)});
+        std::vector<FeatureEdge> ends = ends_of(knot, shape);
+        knots_.push_back({knot, std::move(shape), std::move(ends)});
     }
 
     /// Means of the edges that segments end on.
@@ -199,6 +212,7 @@ class Snapper {
     std::vector<std::uint32_t> degree_;
     std::vector<KnotVertex> vertices_;
     std::vector<KnotArm> arms_;
+    std::vector<KnotLine> knot_lines_;
     std::vector<ShownKnot> knots_;
     SnappedCurves out_;
 };
