@@ -30,6 +30,14 @@ inline constexpr int kImageUnsupported = 1103; ///< an image with depth (deep da
 inline constexpr int kTraceFailed = 1104;      ///< features couldn't be traced
 inline constexpr int kImageMemory = 1105;      ///< an image's texture would take more than 20 GiB of memory on the way: too many pixels and texels
 
+// Bezier networks (owner: compiler/network): errors. No command reads them yet, so README.md has none of these, nor of
+// the feature curves below.
+inline constexpr int kNetworkMalformed = 1501;  // a network that isn't JSON in UTF-8, or of another schema
+inline constexpr int kNetworkMember = 1502;     // a network's member is missing, unknown, or of the wrong type
+inline constexpr int kNetworkNumber = 1503;     // a number of a network is outside its range
+inline constexpr int kNetworkTooLarge = 1504;   // a network of more than 256 MiB, or more than 2^24 segments
+inline constexpr int kNetworkSegment = 1505;    // a network's segment hasn't 2, 4 or 6 numbers
+
 // SVG front end: warnings, something of the drawing is missing or changed
 inline constexpr int kSvgTextWithoutFonts = 2001;  ///< text is not drawn, no fonts were given
 inline constexpr int kSvgFontNotFound = 2002;      ///< a font or glyph is missing
@@ -57,6 +65,10 @@ inline constexpr int kImageClipped = 2054;       ///< pixels beyond 0…1 (`--sa
 inline constexpr int kRegionsUnsampled = 2055;   ///< parts without a valid pixel to reach took prefiltered ones
 inline constexpr int kTexelsTooSmall = 2056;     ///< more than four texels a pixel along a side: gradients may stop before they reach a feature
 inline constexpr int kMoreImages = 2057;         ///< the file holds more images (pages, parts, layers, frames): the first was taken
+
+// Bezier networks: warnings
+inline constexpr int kNetworkPointSegments = 2061; // segments of a network that are a single point were left out (count)
+inline constexpr int kNetworkEmpty = 2062;         // a network without a curve
 
 // SVG front end: notes, how something is represented
 inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer
@@ -96,6 +108,11 @@ inline constexpr int kSilmapPartsLost = 5122;    ///< parts of the picture that 
 inline constexpr int kPinchmapPartsLost = 5131;    ///< parts of the drawing that a pinchmap can't hold: too thin or too crowded for its clusters, they are blurred (area)
 inline constexpr int kPinchmapCrosses = 5132;      ///< crossings of edges that a pinchmap blurs (count)
 inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges between colours that lie in one zone of a pinchmap: they are blurred (count)
+
+// Feature curves (owner: compiler/feature_curves)
+inline constexpr int kFeatureMoved = 5141;   // texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)
+inline constexpr int kFeatureEndsCut = 5142; // ends of feature curves inside a texel that end on its boundary instead (count)
+inline constexpr int kFeatureLost = 5143;    // feature curves that lie inside one texel, or fold back in it, and don't show (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

@@ -165,6 +165,18 @@ inline constexpr double kMeanTolerance = 1.0 / (16 * 255);
 /// is less than a fifth of a step.
 inline constexpr double kMeanSpan = 1.0 / 32;
 
+/// Lattice steps: cubics of a network become quadratics that stay this close to them, 2^-22 of the extent: as strokes do
+/// (kStrokeTolerance). At 256 texels that is two steps of the positions in signatures (2^-15 texel).
+inline constexpr double kQuadraticTolerance = kStrokeTolerance;
+
+/// Texels: where textures of straight segments are asked for, curves become chords this close to them. A curve's point
+/// on an edge, which is what is stored, is off by as much, a sixteenth of the 1/255 that samplers may differ by; inside
+/// a texel the segment between two such points replaces the curve anyway.
+inline constexpr double kFeatureChord = 0x1p-12;
+
+/// Texels: texels in which snapping moves a feature curve by more are told one by one.
+inline constexpr double kFeatureMoveTold = 0.5;
+
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
 
 /// Areas of trapezoids (planar/trapezoid_area), in epsilons of long double: De Casteljau of values up to M errs by less

@@ -8,7 +8,7 @@
 namespace fetex {
 
 /// 01xx container, 02xx chunk contents, 1xxx meaning of an FBT, 2xxx of a bi-level texture, 3xxx of a
-/// silhouette-map texture, 4xxx of a pinchmap.
+/// silhouette-map texture, 4xxx of a pinchmap, 5xxx of a texture with feature curves.
 enum class FindingCode : std::uint16_t {
     Truncated = 101,          ///< the file ends before its stated length
     BadMagic = 102,           ///< not a .fetex file, or mangled by a text transfer
@@ -79,10 +79,16 @@ enum class FindingCode : std::uint16_t {
     PinchmapCluster = 4006,   ///< a cluster with four active texels, with two across, or on both sides
     PinchmapDirection = 4007, ///< active where no line is, or beside another without one between; a direction that
                               ///< isn't from the side -1 to the side +1
+
+    FeatureDimensions = 5001, ///< width, height 1 … 16384; lengths of the arrays
+    FeatureFormat = 5002,     ///< unknown number format; limit of distances
+    FeatureBadTexel = 5003,   ///< not a valid configuration
+    FeatureNumber = 5004,     ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit
+    FeatureUnusedEdge = 5005, ///< an edge that no segment ends on hasn't the default position and angle
 };
 
-/// One finding. offset: bytes from the start of the file, or, from validate_fbt, validate_bilevel,
-/// validate_silmap and validate_pinchmap, of the part the message names.
+/// One finding. offset: bytes from the start of the file, or, from validate_fbt and the like, of the part that the
+/// message names.
 struct Finding {
     FindingCode code{};
     std::uint64_t offset = 0;

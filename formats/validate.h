@@ -7,6 +7,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/feature_curves.h"
 #include "formats/findings.h"
 #include "formats/pinchmap.h"
 #include "formats/silmap.h"
@@ -45,5 +46,10 @@ inline constexpr std::uint32_t kPinchmapMaxScale = 14;
 /// Findings, at most `limit`; offsets are bytes from the start of the header, the map, the signal as the file has it or
 /// the mips, as the message says.
 std::vector<Finding> validate_pinchmap(const PinchmapTexture& texture, std::size_t limit = 64);
+inline constexpr std::uint32_t kFeatureCurvesMaxSide = 16384;
+
+/// Findings, at most `limit`; offsets are bytes from the start of the header, the configurations, the signatures or the
+/// distances, as the message says.
+std::vector<Finding> validate_feature_curves(const FeatureCurvesTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex

@@ -67,6 +67,26 @@ def check_minimum(value, rule, _schema, _root, where):
         yield f"{where}: below {rule}: {value!r}"
 
 
+def check_exclusiveMinimum(value, rule, _schema, _root, where):
+    if is_type(value, "number") and value <= rule:
+        yield f"{where}: not above {rule}: {value!r}"
+
+
+def check_maximum(value, rule, _schema, _root, where):
+    if is_type(value, "number") and value > rule:
+        yield f"{where}: above {rule}: {value!r}"
+
+
+def check_minItems(value, rule, _schema, _root, where):
+    if isinstance(value, list) and len(value) < rule:
+        yield f"{where}: fewer than {rule} items"
+
+
+def check_maxItems(value, rule, _schema, _root, where):
+    if isinstance(value, list) and len(value) > rule:
+        yield f"{where}: more than {rule} items"
+
+
 def check_required(value, rule, _schema, _root, where):
     for name in rule:
         if isinstance(value, dict) and name not in value:

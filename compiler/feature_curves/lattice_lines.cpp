@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/feature_curves/lattice_lines.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "compiler/error_budget.h"
+#include "compiler/flat_index.h"
+#include "compiler/network/simplify.h"
+#include "compiler/scene/guard_box.h"
+#include "compiler/scene/lattice.h"
+#include "compiler/scene/vertex_merge.h"
+
+namespace fetexc {
+namespace {
+
+using Line = std::array<std::uint32_t, 2>;
+
+/// Lines between numbered points of a VertexMerge.
+std::vector<Line> add_lines(const Network& chords, const Extent& extent, VertexMerge& merge) {
+    std::vector<Line> lines;
+    std::vector<CanvasSegment> inside;
+    const LatticeScale scale = lattice_scale(extent);
+    const GuardBox box = guard_box(extent);
+    for (const NetworkCurve& curve : chords.curves) {
+        inside.clear();
+        for (const CanvasSegment& s : curve.segments) {
+            const CanvasSegment line = to_lattice_space(s, scale);
+            if (hull_inside(line, box))
+                inside.push_back(line);
+            else
+                clip_to_guard_box(line, box, inside);
+        }
+        for (const CanvasSegment& s : inside)
+            lines.push_back({merge.add(snap(s.p[0])), merge.add(snap(s.p[1]))});
+    }
+    return lines;
+}
+
+struct PairHash {
+    std::size_t operator()(std::uint64_t packed) const { return static_cast<std::size_t>(mixed_bits(packed)); }
+};
+
+/// Fills vertices and lines from merged points.
+void take_leaders(const std::vector<Line>& lines, const VertexMerge& merge, LatticeLines& out) {
+    std::vector<std::uint32_t> number;
+    const auto vertex = [&](std::uint32_t point) {
+        const std::uint32_t leader = merge.leader(point);
+        if (number.size() <= leader) number.resize(leader + 1, kNone);
+        if (number[leader] == kNone) {
+            number[leader] = static_cast<std::uint32_t>(out.vertices.size());
+            out.vertices.push_back(merge.at(leader));
+        }
+        return number[leader];
+    };
+    FlatIndex<std::uint64_t, PairHash> known(lines.size());
+    for (const Line& line : lines) {
+        const std::uint32_t a = vertex(line[0]), b = vertex(line[1]);
+        const auto [low, high] = std::minmax(a, b);
+        if (a != b && known.try_emplace(std::uint64_t{low} << 32 | high, 0).second) out.lines.push_back({a, b});
+    }
+}
+
+} // namespace
+
+Result<LatticeLines> lattice_lines(const Network& network, std::uint32_t width, std::uint32_t height) {
+    const Result<Extent> extent = make_extent(network.width, network.height);
+    if (!extent) return extent.error();
+    const double texel = std::min(network.width / width, network.height / height);
+    const Result<Network> chords = to_lines(network, budget::kFeatureChord * texel);
+    if (!chords) return chords.error();
+    LatticeLines out{extent.value(), {}, {}};
+    VertexMerge merge(segment_count(chords.value()) + 1);
+    const std::vector<Line> lines = add_lines(chords.value(), out.extent, merge);
+    merge.run();
+    take_leaders(lines, merge, out);
+    return out;
+}
+
+} // namespace fetexc

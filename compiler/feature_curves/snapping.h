@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Snapping (Parilov and Zorin 2008, §4): a network of lines becomes a valid configuration and signature for each
+/// texel, by inserting one segment after the other. README.md has the steps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/feature_curves/lattice_lines.h"
+#include "compiler/feature_curves/transformations.h"
+#include "compiler/result.h"
+
+namespace fetexc {
+
+/// Why curves in a texel aren't where the input has them; bits of FeatureMove::kinds.
+enum FeatureMoveKind : std::uint8_t {
+    kEdgeMerged = 1,  ///< several points of an edge became one
+    kVertexCut = 2,   ///< a vertex inside the texel: a straight segment replaces the lines that meet there
+    kRerouted = 4,    ///< a segment became part of the others (the table)
+    kEndCut = 8,      ///< an end inside the texel: the curve ends on the boundary
+    kFolded = 16,     ///< lines that leave through the edge that they came in by
+    kLostInside = 32, ///< lines that touch no edge
+};
+
+/// A texel that isn't as the input has it.
+struct FeatureMove {
+    std::uint32_t i = 0, j = 0;
+    std::uint8_t kinds = 0;
+    /// Texels; no point of the input's curves in the texel is farther from the texture's curves, but for what
+    /// kLostInside has left out.
+    double distance = 0;
+};
+
+struct SnapStats {
+    std::uint64_t lines = 0, crossings = 0, segments = 0; ///< segments: inserted, before the table
+    std::uint64_t edges_merged = 0;                       ///< with crossings apart from each other
+    std::uint64_t rerouted = 0;                           ///< segments that the table replaced
+    std::uint64_t junctions = 0;                          ///< three and more ways out of a texel joined in it
+    std::uint64_t ends_cut = 0, folded = 0, lost_inside = 0;
+};
+
+struct SnappedTexel {
+    SegmentSet segments = 0; ///< a configuration
+    SegmentSet inserted = 0; ///< what was inserted
+};
+
+/// Positions of edges that no segment ends on are the default.
+struct SnappedCurves {
+    std::uint32_t width = 0, height = 0;
+    std::vector<SnappedTexel> texels; ///< row by row
+    /// (width+1)·(height+1): of the north edge of texel (i,j), and of its west edge.
+    std::vector<double> north, west;
+    SnapStats stats;
+    std::vector<FeatureMove> moves; ///< row by row
+
+    /// Of texel (i,j).
+    [[nodiscard]] double position(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const;
+    /// A segment of the texel, or of the one across the edge, ends on it. Of (width, j) and (i, height): West, North.
+    [[nodiscard]] bool is_used(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const;
+};
+
+/// Preconditions: 1 ≤ width, height ≤ 16384. The same result for the same input; one thread.
+SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height);
+
+/// Warnings 5141 … 5143: what moved by more than kFeatureMoveTold, and what is missing.
+std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves);
+
+/// The texture of straight segments; distances are the limit.
+fetex::FeatureCurvesTexture linear_texture(const SnappedCurves& curves, fetex::FeatureNumberFormat format,
+                                           float distance_limit);
+
+} // namespace fetexc
