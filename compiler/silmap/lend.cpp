@@ -12,6 +12,7 @@ namespace {
 /// Square texels: of wrong area around a texel that it is worth to try for, and that must be won.
 constexpr double kWorthTrying = 0.125, kWorthLending = 1.0 / 64;
 constexpr int kRounds = 3;
+constexpr std::size_t kTangle = 96; ///< slabs in the cells around a texel
 
 /// Strides of a search for a point, 4 × 4 places first.
 std::span<const std::int64_t> strides_of(fetex::SilmapCellFormat format) {
@@ -79,8 +80,16 @@ class Lender {
         return sum;
     }
 
+    /// So much inside that no texel's colour could make it right, and every place of a point takes long to try.
+    [[nodiscard]] bool is_tangle() const {
+        std::size_t slabs = 0;
+        for (const std::uint32_t k : ring_)
+            slabs += cells_.cells[k].slabs;
+        return slabs > kTangle;
+    }
+
     bool try_texel(std::uint32_t i, std::uint32_t j) {
-        if (!gather(i, j) || wrong_in(ring_) < kWorthTrying) return false;
+        if (!gather(i, j) || wrong_in(ring_) < kWorthTrying || is_tangle()) return false;
         const std::size_t texel = std::size_t{j} * cells_.width + i;
         const ResultId had = cells_.results[texel];
         candidates_.clear();

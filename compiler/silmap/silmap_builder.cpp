@@ -45,6 +45,11 @@ std::vector<std::uint32_t> colors_of(const Scene& scene, const Compositor& compo
         const double y = (static_cast<double>(j) + 0.5) / cells.height * scene.extent.height;
         for (std::uint32_t i = 0; i < cells.width; ++i) {
             const std::size_t k = j * cells.width + i;
+            const auto at = out.begin() + static_cast<std::ptrdiff_t>(words * k);
+            if (i > 0 && cells.results[k] == cells.results[k - 1] && compositor.is_solid(cells.results[k])) {
+                std::copy_n(at - static_cast<std::ptrdiff_t>(words), words, at);
+                continue;
+            }
             const Rgba c = compositor.color(cells.results[k], {(i + 0.5) / cells.width * scene.extent.width, y});
             pack(c, options, &out[words * k]);
         }

@@ -84,11 +84,10 @@ double against_bilinear(SilmapCellFormat format) {
     return mean;
 }
 
-TEST(SilmapFit, eightBitsAreThreeTimesAsGoodAsBilinear) {
-    EXPECT_LE(against_bilinear(SilmapCellFormat::Bits8), 1.0 / 3);
-}
+// Asked for are a third and a fifth; what is reached guards against losing it.
+TEST(SilmapFit, eightBitsAreThreeTimesAsGoodAsBilinear) { EXPECT_LE(against_bilinear(SilmapCellFormat::Bits8), 0.3); }
 TEST(SilmapFit, sixteenBitsAreFiveTimesAsGoodAsBilinear) {
-    EXPECT_LE(against_bilinear(SilmapCellFormat::Bits16), 1.0 / 5);
+    EXPECT_LE(against_bilinear(SilmapCellFormat::Bits16), 0.135);
 }
 
 /// The cells of a scene, fitted.
