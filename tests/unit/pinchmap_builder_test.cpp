@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Pinchmaps from drawings and images: valid, sharp, with signals that don't mix sides, and honest about what is lost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "compiler/diagnostics.h"
+#include "compiler/measure/alternatives.h"
+#include "compiler/measure/errors.h"
+#include "compiler/pinchmap/pinchmap_builder.h"
+#include "compiler/pinchmap/pinchmap_sizes.h"
+#include "compiler/svg/svg.h"
+#include "formats/validate.h"
+#include "tests/support/raster_picture.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::PinchmapFormat;
+using fetex::PinchmapSampleFormat;
+
+const char* const kShapes[] = {"gear_logo", "glyph_g", "icon", "serif_letter", "star", "yin_yang"};
+
+Scene scene_of_svg(const std::string& text) {
+    std::vector<Diagnostic> said;
+    auto made = load_svg({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {}, said);
+    EXPECT_TRUE(made.ok());
+    return std::move(made).value();
+}
+Scene art(const std::string& name) {
+    std::ifstream in(std::filesystem::path(FETEXC_ART_DIR) / (name + ".svg"), std::ios::binary);
+    return scene_of_svg({std::istreambuf_iterator<char>(in), {}});
+}
+
+PinchmapOptions options_of(std::uint32_t side, std::uint32_t scale = 0) {
+    PinchmapOptions options;
+    options.size = {side, side}, options.scale = scale, options.threads = 0;
+    return options;
+}
+
+template <class Input> PinchmapBuild build(const Input& input, const PinchmapOptions& options) {
+    auto made = compile_pinchmap(input, options);
+    EXPECT_TRUE(made.ok()) << made.error().message;
+    const auto findings = fetex::validate_pinchmap(made.value().texture, 1);
+    EXPECT_TRUE(findings.empty()) << findings[0].message;
+    return std::move(made).value();
+}
+
+bool says(const PinchmapBuild& b, int code) {
+    return std::ranges::any_of(b.diagnostics, [&](const Diagnostic& d) { return d.code == code; });
+}
+
+TEST(PinchmapBuilder, allFormatsAreValid) {
+    const Scene scene = art("yin_yang");
+    for (const PinchmapFormat format : {PinchmapFormat::Bits8, PinchmapFormat::Bits16}) {
+        for (const PinchmapSampleFormat samples : {PinchmapSampleFormat::Rgba8, PinchmapSampleFormat::Rgba16,
+                                                   PinchmapSampleFormat::Rgba16F, PinchmapSampleFormat::Rgb8}) {
+            PinchmapOptions options = options_of(21, 1);
+            options.map_format = format, options.sample_format = samples, options.mips = true;
+            const PinchmapBuild b = build(scene, options);
+            EXPECT_EQ(b.stats.gpu_bytes, pinchmap_bytes(options));
+            EXPECT_EQ(b.texture.width, 21u);
+            EXPECT_EQ(fetex::pinchmap_signal_width(b.texture), 42u);
+        }
+    }
+}
+
+TEST(PinchmapBuilder, isTheSameForAnyThreads) {
+    const Scene scene = art("lighthouse");
+    PinchmapOptions options = options_of(40);
+    options.mips = true, options.threads = 1;
+    const PinchmapBuild one = build(scene, options);
+    options.threads = 4;
+    const PinchmapBuild four = build(scene, options);
+    EXPECT_EQ(one.texture.map, four.texture.map);
+    EXPECT_EQ(one.texture.signal, four.texture.signal);
+    EXPECT_EQ(one.texture.mips, four.texture.mips);
+    EXPECT_EQ(one.diagnostics.size(), four.diagnostics.size());
+}
+
+int largest_difference(std::uint32_t a, std::uint32_t b) {
+    int largest = 0;
+    for (unsigned shift = 0; shift < 32; shift += 8)
+        largest =
+            std::max(largest, std::abs(static_cast<int>(a >> shift & 0xff) - static_cast<int>(b >> shift & 0xff)));
+    return largest;
+}
+
+/// Two colours: every sample has one of them, within a step.
+TEST(PinchmapBuilder, signalsDontMixSides) {
+    for (const std::uint32_t scale : {0u, 1u, 2u}) {
+        const PinchmapBuild b = build(art("alternatives/icon"), options_of(32, scale));
+        EXPECT_EQ(b.stats.signal.lost, 0);
+        const std::vector<std::uint32_t>& signal = b.texture.signal;
+        const auto other = std::ranges::find_if(
+            signal, [&](std::uint32_t sample) { return largest_difference(sample, signal[0]) > 100; });
+        ASSERT_NE(other, signal.end());
+        std::size_t colors[2] = {0, 0};
+        for (const std::uint32_t sample : signal) {
+            const bool first = largest_difference(sample, signal[0]) <= 1;
+            ASSERT_TRUE(first || largest_difference(sample, *other) <= 1);
+            ++colors[first ? 0 : 1];
+        }
+        EXPECT_GT(colors[0], 100u);
+        EXPECT_GT(colors[1], 100u);
+    }
+}
+
+const char* const kGradients = R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="320" height="320">
+<linearGradient id="a" gradientUnits="userSpaceOnUse" x1="0" y1="0" x2="320" y2="100"><stop stop-color="#203040"/><stop offset="1" stop-color="#90d0ff"/></linearGradient>
+<linearGradient id="b" gradientUnits="userSpaceOnUse" x1="0" y1="0" x2="0" y2="320"><stop stop-color="#fff0c0"/><stop offset="1" stop-color="#c02010"/></linearGradient>
+<rect width="320" height="320" fill="url(#a)"/><path d="M-10 97 C 120 20 190 240 340 131 V 400 H -10 Z" fill="url(#b)"/></svg>)svg";
+
+/// Gradients go on up to the edge between them: no sample has half of the other side, nor is drawn to one half of its
+/// surroundings as a mean of them would be.
+TEST(PinchmapBuilder, gradientsReachTheEdge) {
+    const Scene scene = scene_of_svg(kGradients);
+    const PinchmapBuild b = build(scene, options_of(20));
+    const auto truth = measure::Truth::of(scene, 0);
+    double largest = 0;
+    for (int y = 0; y < 200; ++y) {
+        for (int x = 0; x < 200; ++x) {
+            const measure::TexturePoint p{(x + 0.5) / 200, (y + 0.5) / 200};
+            if (truth.value()->edge_within(p, 0.004)) continue; // a twelfth of a cluster
+            const Rgba right = truth.value()->color(truth.value()->result_at(p), p);
+            const fetex::FbtColor c = fetex::pinchmap_sample(b.texture, p.u * 20, p.v * 20);
+            largest = std::max({largest, std::abs(c.r - right.r), std::abs(c.g - right.g), std::abs(c.b - right.b)});
+        }
+    }
+    EXPECT_LE(largest, 0.03);
+}
+
+/// A dot of a tenth of a cluster: named with its area and place, and blurred.
+TEST(PinchmapBuilder, whatIsTooSmallIsNamed) {
+    const std::string text =
+        R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="320" height="320"><rect width="320" height="320" fill="#fff"/>
+<rect x="200" y="0" width="200" height="320"/><rect x="73" y="153" width="4" height="4"/></svg>)svg";
+    const PinchmapBuild b = build(scene_of_svg(text), options_of(32));
+    EXPECT_TRUE(says(b, diag::kPinchmapPartsLost));
+    EXPECT_NEAR(b.stats.signal.lost, 16.0 / 320 / 320, 4e-5);
+    EXPECT_NEAR(b.stats.signal.lost_u, 75.0 / 320, 0.01);
+    EXPECT_NEAR(b.stats.signal.lost_v, 155.0 / 320, 0.01);
+    const fetex::FbtColor there = fetex::pinchmap_sample(b.texture, 7.5, 15.5);
+    EXPECT_GT(there.r, 0.5);
+    EXPECT_LT(there.r, 0.97);
+    EXPECT_FALSE(says(build(art("alternatives/icon"), options_of(32)), diag::kPinchmapPartsLost));
+}
+
+/// Three colours that all touch: two zones can't hold them.
+TEST(PinchmapBuilder, edgesInAZoneAreNamed) {
+    const std::string text =
+        R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="100" height="100" fill="#fff"/>
+<rect width="50" height="50" fill="#00f"/><rect x="50" width="50" height="50" fill="#0a0"/></svg>)svg";
+    const PinchmapBuild b = build(scene_of_svg(text), options_of(16));
+    EXPECT_GE(b.stats.edges_blurred, 1u);
+    EXPECT_TRUE(says(b, diag::kPinchmapEdgesBlurred));
+    const std::string two =
+        R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="100" height="100" fill="#fff"/>
+<rect x="10" y="10" width="40" height="50" fill="#00f"/><rect x="60" y="20" width="30" height="50" fill="#0a0"/></svg>)svg";
+    const PinchmapBuild c = build(scene_of_svg(two), options_of(16));
+    EXPECT_EQ(c.stats.edges_blurred, 0u);
+    EXPECT_FALSE(says(c, diag::kPinchmapEdgesBlurred));
+}
+
+/// A disc whose alpha falls within `pixels`, of one gradient.
+RasterImage disc(std::uint32_t side, double pixels) {
+    return test::image_of(side, side, [&](double x, double y) {
+        const double from = std::hypot(x - side / 2.0, y - side / 2.0) - side * 0.31;
+        const double a = std::clamp(0.5 - from / pixels, 0.0, 1.0), g = x / side;
+        return Rgba{a * g, a * 0.5, a * (1 - g), a};
+    });
+}
+
+TEST(PinchmapBuilder, softTransitionsArentCut) {
+    const PinchmapBuild hard = build(disc(512, 1), options_of(16)), soft = build(disc(512, 12), options_of(16));
+    EXPECT_EQ(hard.stats.soft_texels, 0u);
+    EXPECT_FALSE(fetex::pinchmap_is_open(hard.texture));
+    EXPECT_EQ(soft.stats.soft_texels, soft.stats.active);
+    // Across the edge at the right: in a sixteenth of a cluster from one side to the other, or not.
+    const auto step = [](const PinchmapBuild& b) {
+        double largest = 0;
+        for (double x = 11; x < 15; x += 1.0 / 16)
+            largest = std::max(largest, std::abs(fetex::pinchmap_sample(b.texture, x, 8.2).a -
+                                                 fetex::pinchmap_sample(b.texture, x + 1.0 / 16, 8.2).a));
+        return largest;
+    };
+    EXPECT_GT(step(hard), 0.95);
+    EXPECT_LT(step(soft), 0.2);
+}
+
+/// The paper's case, §7.3: as good as from the drawing, and no pixel that mixes both sides gets into the signal.
+TEST(PinchmapBuilder, imagesAreAsGoodAsDrawings) {
+    const PinchmapBuild b = build(disc(1024, 1), options_of(32));
+    EXPECT_LE(b.stats.wrong_area * 1e6, 150);
+    for (const std::uint32_t sample : b.texture.signal) {
+        const std::uint32_t alpha = sample >> 24;
+        EXPECT_TRUE(alpha <= 1 || alpha >= 254) << alpha;
+    }
+}
+
+TEST(PinchmapBuilder, sizesOfItsOwnChoice) {
+    const Scene scene = art("alternatives/glyph_g");
+    const auto within = compile_pinchmap_at_chosen_size(scene, options_of(0), 20000, 0);
+    ASSERT_TRUE(within.ok());
+    EXPECT_LE(within.value().stats.gpu_bytes, 20000u);
+    EXPECT_GE(within.value().stats.gpu_bytes, 18000u);
+    const auto good = compile_pinchmap_at_chosen_size(scene, options_of(0), 0, 4e-4);
+    ASSERT_TRUE(good.ok());
+    EXPECT_LE(good.value().stats.wrong_area, 4e-4);
+    EXPECT_LE(good.value().texture.width, 70u);
+    const auto chosen = compile_pinchmap_at_chosen_size(scene, options_of(0), 0, 0);
+    EXPECT_LE(chosen.value().stats.wrong_area, kPinchmapChosenError);
+    EXPECT_EQ(compile_pinchmap_at_chosen_size(scene, options_of(0), 10, 0).error().code, diag::kPinchmapBudget);
+    EXPECT_EQ(compile_pinchmap_at_chosen_size(scene, options_of(0), 5000, 1e-5).error().code,
+              diag::kPinchmapErrorUnmet);
+}
+
+TEST(PinchmapBuilder, refusesSizes) {
+    const Scene scene = art("alternatives/star");
+    EXPECT_EQ(compile_pinchmap(scene, options_of(0)).error().code, diag::kSizeOutOfRange);
+    EXPECT_EQ(compile_pinchmap(scene, options_of(16384, 1)).error().code, diag::kSizeOutOfRange);
+    EXPECT_EQ(compile_pinchmap(disc(16, 1), options_of(20000)).error().code, diag::kSizeOutOfRange);
+}
+
+class SampledPinchmap final : public measure::Picture {
+  public:
+    explicit SampledPinchmap(const fetex::PinchmapTexture& t) : t_(t) {}
+    [[nodiscard]] Rgba at(measure::TexturePoint p) const override {
+        const fetex::FbtColor c = fetex::pinchmap_sample(t_, p.u * t_.width, p.v * t_.height);
+        return {c.r, c.g, c.b, c.a};
+    }
+    [[nodiscard]] GridSize texels() const override { return {t_.width, t_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override { return fetex::pinchmap_gpu_bytes(t_); }
+
+  private:
+    const fetex::PinchmapTexture& t_;
+};
+
+/// §7.3's comparison, over six shapes: against a bitmap of eight times the memory, at two magnifications.
+TEST(PinchmapBuilder, betterThanABitmapOfEightTimesTheMemory) {
+    for (const std::uint32_t magnification : {4u, 16u}) {
+        double area_logs[2] = {0, 0}, psnr[2] = {0, 0};
+        for (const char* name : kShapes) {
+            const Scene scene = art(std::string("alternatives/") + name);
+            const PinchmapBuild b = build(scene, options_of(32));
+            const auto truth = measure::Truth::of(scene, 0);
+            const auto bitmap = measure::make_alternative(*truth.value(), measure::Alternative::Bitmap, {128, 128}, 0);
+            EXPECT_GT(bitmap.value()->gpu_bytes(), 7.7 * b.stats.gpu_bytes);
+            measure::MeasureOptions options;
+            options.sizes = {{32 * magnification, 32 * magnification}}, options.threads = 0;
+            options.figures = measure::Figures::none();
+            options.figures.misclassified = options.figures.psnr = true;
+            const auto measurer = measure::Measurer::of(*truth.value(), options);
+            const SampledPinchmap ours(b.texture);
+            const measure::Picture* const pictures[] = {&ours, bitmap.value().get()};
+            for (std::size_t k = 0; k < 2; ++k) {
+                const measure::SizeErrors e = measurer.value().measure(*pictures[k])[0];
+                area_logs[k] += std::log(std::max(e.misclassified_ppm, 1.0)), psnr[k] += e.psnr;
+                std::printf("  x%u %-12s %s %7.0f ppm %6.2f dB\n", magnification, name,
+                            k == 0 ? "pinchmap" : "bitmap  ", e.misclassified_ppm, e.psnr);
+            }
+        }
+        const double count = std::size(kShapes);
+        std::printf("  x%u mean: %.0f ppm, %.2f dB; bitmap %.0f ppm, %.2f dB\n", magnification,
+                    std::exp(area_logs[0] / count), psnr[0] / count, std::exp(area_logs[1] / count), psnr[1] / count);
+        EXPECT_LT(area_logs[0], area_logs[1]);
+        EXPECT_GT(psnr[0], psnr[1]);
+    }
+}
+
+} // namespace
+} // namespace fetexc
