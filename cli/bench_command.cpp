@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint32_t kLeastRounds = 11, kMostRounds = 10001;
 
 struct BenchOptions {
-    std::vector<std::string> inputs, representations = {"fbt", "bilevel", "silmap"};
+    std::vector<std::string> inputs, representations = representation_names();
     std::string csv, html, plot;
     std::string backend = "osmesa";
     std::uint32_t rounds = kLeastRounds;
@@ -112,6 +112,7 @@ int run_bench(BenchOptions options) {
         return report_error({ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt: its sizes are swept", {}});
     options.sweep.bilevel = std::ranges::count(options.representations, "bilevel") > 0;
     options.sweep.silmap = std::ranges::count(options.representations, "silmap") > 0;
+    options.sweep.pinchmap = std::ranges::count(options.representations, "pinchmap") > 0;
     std::optional<SamplerTimer> timer; // before anything starts a thread
     if (options.sweep.timing) {
         timer.emplace(options.backend, options.rounds);
@@ -145,7 +146,7 @@ Command add_bench_command(CLI::App& parent) {
     add_sizes(*app, "--output-size", options->sweep.outputs,
               "Pixels on the longer side where errors are measured; plots show the last (default 512)");
     app->add_option("--repr", options->representations,
-                    "Representations: fbt, whose sizes are swept, bilevel and silmap (default: all)")
+                    "Representations: fbt, whose sizes are swept, bilevel, silmap and pinchmap (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");

@@ -76,7 +76,9 @@ const char* explanation(std::size_t method) {
         "channel of its own",
         "what fetexc makes of drawings for small shaders: an ordinary texture, and for each of its cells one point and "
         "two bits that say where colours end",
-        "the same with points on a finer grid"};
+        "the same with points on a finer grid",
+        "what fetexc makes of drawings with two zones: an ordinary texture, and a small map that says how to move the "
+        "place where it is read, so that colours on the two sides of a line never mix"};
     return kTexts[method];
 }
 

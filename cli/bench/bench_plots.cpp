@@ -138,7 +138,8 @@ const std::array<std::string, kPlotStyles>& bench_methods() {
         kBilevelOneMethod,
         kBilevelMethod,
         kSilmapMethod,
-        kSilmapWideMethod};
+        kSilmapWideMethod,
+        kPinchmapMethod};
     return names;
 }
 

@@ -19,6 +19,7 @@ inline constexpr const char* kBilevelOneMethod = "bi-level R8";
 inline constexpr const char* kBilevelMethod = "bi-level of 1 to 3 channels";
 inline constexpr const char* kSilmapMethod = "silhouette map";
 inline constexpr const char* kSilmapWideMethod = "silhouette map, 16-bit cells";
+inline constexpr const char* kPinchmapMethod = "pinchmap";
 
 /// By the clock, in one run on one machine.
 struct BenchTimes {

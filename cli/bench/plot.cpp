@@ -29,9 +29,10 @@ constexpr std::array<Style, kPlotStyles> kStyles = {{{"#0072b2", "", 2.6},
                                                      {"#8a6500", "5 2 1 2", 1.8},
                                                      {"#222222", "", 1.8},
                                                      {"#c2185b", "12 3", 1.8},
-                                                     {"#3f8f29", "1 3", 1.8}}};
+                                                     {"#3f8f29", "1 3", 1.8},
+                                                     {"#5b4bb7", "6 2 2 2", 1.8}}};
 
-/// Round, square, triangle, diamond, triangle on its point, cross, bar, hexagon.
+/// Round, square, triangle, diamond, triangle on its point, cross, bar, hexagon, bow tie.
 std::string mark(std::size_t style, double x, double y, bool hollow, const std::string& description) {
     const char* color = kStyles[style].color;
     const std::string paint =
@@ -57,6 +58,8 @@ std::string mark(std::size_t style, double x, double y, bool hollow, const std::
     case 7:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}l4.2,2.4v4.8l-4.2,2.4l-4.2,-2.4v-4.8z" {}{})", x, y - 4.8, paint,
                            closed("path"));
+    case 8:
+        return fmt::format(R"(<path d="M{:.1f},{:.1f}l10,8v-8l-10,8z" {}{})", x - 5, y - 4, paint, closed("path"));
     default:
         return fmt::format(R"(<path d="M{:.1f},{:.1f}h3v3h3v3h-3v3h-3v-3h-3v-3h3z" {}{})", x - 1.5, y - 4.5, paint,
                            closed("path"));

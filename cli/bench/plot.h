@@ -30,7 +30,7 @@ struct PlotLine {
         0; ///< color, mark and dashes: 0 … kPlotStyles − 1, told apart in print and by any colour vision
     std::vector<PlotPoint> points;
 };
-inline constexpr std::size_t kPlotStyles = 8;
+inline constexpr std::size_t kPlotStyles = 9;
 
 struct Plot {
     std::string title, note; ///< above the plot; either may be empty

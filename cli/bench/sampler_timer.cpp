@@ -80,6 +80,23 @@ std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::SilmapTex
     return timed(gl_->upload_silmap(texture), fetex::Sampler::SilmapArea);
 }
 
+fetex::RuntimeStatus SamplerTimer::upload(const fetex::PinchmapTexture& texture) {
+    const auto error = gl_->linear_filter_error();
+    if (!error) return error.error();
+    return gl_->upload_pinchmap(texture, error.value() <= fetex::kGoodFilterError ? fetex::PinchmapFetch::Filtered
+                                                                                  : fetex::PinchmapFetch::Interpolated);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::cost(const fetex::PinchmapTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(upload(texture), fetex::Sampler::Pinchmap);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::PinchmapTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(upload(texture), fetex::Sampler::PinchmapArea);
+}
+
 std::optional<fetex::SamplerCost> SamplerTimer::cost(const measure::FieldPicture& picture) {
     if (!gl_) return std::nullopt;
     const Rgba &below = picture.below(), &above = picture.above();

@@ -30,12 +30,16 @@ class SamplerTimer {
     std::optional<fetex::SamplerCost> area_cost(const fetex::BilevelTexture& texture);
     std::optional<fetex::SamplerCost> cost(const fetex::SilmapTexture& texture);
     std::optional<fetex::SamplerCost> area_cost(const fetex::SilmapTexture& texture);
+    /// Through the hardware's filter where a probe finds that good enough.
+    std::optional<fetex::SamplerCost> cost(const fetex::PinchmapTexture& texture);
+    std::optional<fetex::SamplerCost> area_cost(const fetex::PinchmapTexture& texture);
     std::optional<fetex::SamplerCost> cost(const measure::FieldPicture& field);
     /// Of the bitmap itself: 1 but for noise.
     std::optional<fetex::SamplerCost> cost_of_bitmap();
 
   private:
     fetex::RuntimeStatus upload(const fetex::BilevelTexture& texture);
+    fetex::RuntimeStatus upload(const fetex::PinchmapTexture& texture);
     std::optional<fetex::SamplerCost> timed(const fetex::RuntimeStatus& uploaded, fetex::Sampler sampler);
 
     std::optional<fetex::Renderer> gl_;

@@ -16,6 +16,7 @@
 #include "compiler/measure/classifier.h"
 #include "compiler/measure/pictures.h"
 #include "compiler/measure/sparse_bitmap.h"
+#include "compiler/pinchmap/pinchmap_builder.h"
 #include "compiler/silmap/silmap_builder.h"
 #include "compiler/svg/svg.h"
 
@@ -80,6 +81,10 @@ std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t
     return std::make_unique<const measure::SilmapPicture>(t);
 }
 
+std::unique_ptr<const measure::Picture> picture_of(const fetex::PinchmapTexture& t) {
+    return std::make_unique<const measure::PinchmapPicture>(t);
+}
+
 /// Gives the rival its texture, which picture and timer share.
 template <class Texture> void show(Rival& rival, Texture made) {
     const auto texture = std::make_shared<const Texture>(std::move(made));
@@ -107,6 +112,7 @@ class Sweep {
     Result<Rival> alternative(Alternative kind, std::uint64_t bytes, std::uint32_t size) const;
     Result<Rival> bilevel(std::uint32_t channels, std::uint64_t bytes, std::uint32_t size) const;
     Result<Rival> silmap(fetex::SilmapCellFormat cells, std::uint64_t bytes, std::uint32_t size) const;
+    Result<Rival> pinchmap(std::uint64_t bytes, std::uint32_t size) const;
     Result<std::vector<Rival>> rivals_of(std::uint64_t bytes, std::uint32_t size) const;
     void measure_into(const measure::Picture& picture, BenchPoint& point) const;
     Status time_into(BenchPoint& fbt, std::span<Rival> rivals, const fetex::FbtTexture& texture);
@@ -267,6 +273,22 @@ Result<Rival> Sweep::silmap(fetex::SilmapCellFormat cells, std::uint64_t bytes, 
     return rival;
 }
 
+Result<Rival> Sweep::pinchmap(std::uint64_t bytes, std::uint32_t size) const {
+    Rival rival;
+    rival.point = rival_point(kPinchmapMethod, size, "");
+    PinchmapOptions options;
+    options.threads = options_.threads;
+    auto made = compile_pinchmap_at_chosen_size(scene_, options, bytes, 0);
+    if (!made) return made.error();
+    options.size = {made.value().texture.width, made.value().texture.height}, options.threads = 1;
+    rival.make = [options](const Scene& scene) -> Status {
+        const auto again = compile_pinchmap(scene, options);
+        return again ? Status() : Status(again.error());
+    };
+    show(rival, std::move(made.value().texture));
+    return rival;
+}
+
 /// The bitmap first.
 Result<std::vector<Rival>> Sweep::rivals_of(std::uint64_t bytes, std::uint32_t size) const {
     std::vector<Rival> rivals;
@@ -287,6 +309,8 @@ Result<std::vector<Rival>> Sweep::rivals_of(std::uint64_t bytes, std::uint32_t s
         if (!options_.silmap) break;
         if (const Status status = add(silmap(cells, bytes, size)); !status) return status.error();
     }
+    if (!options_.pinchmap) return rivals;
+    if (const Status status = add(pinchmap(bytes, size)); !status) return status.error();
     return rivals;
 }
 

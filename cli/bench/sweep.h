@@ -19,12 +19,12 @@ struct SweepOptions {
     unsigned compile_rounds = 3;
     bool timing = true;
     bool equal_bitmap = true;
-    /// Among what has the FBT's bytes: bi-level, silhouette-map textures.
-    bool bilevel = true, silmap = true;
+    /// Among what has the FBT's bytes: bi-level, silhouette-map textures, pinchmaps.
+    bool bilevel = true, silmap = true, pinchmap = true;
 };
 
 /// Diagnostics of the front end are appended. timer: null when nothing is timed. Errors of load_scene, compile_fbt,
-/// compile_bilevel, compile_silmap and measure.
+/// compile_bilevel, compile_silmap, compile_pinchmap and measure.
 Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& options, SamplerTimer* timer,
                              const ProgressSink& progress, std::vector<Diagnostic>& diagnostics);
 

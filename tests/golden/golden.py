@@ -14,6 +14,7 @@ LIST = HERE / "golden.sha256"
 SIZES = (64, 128)  # texels of FBTs
 BYTES = (768, 3072)  # of bi-level textures, mip levels included
 CELL_BITS = (8, 16)  # of silhouette maps
+CLUSTERS = 32  # of pinchmaps
 JOBS = (1, 2)
 TIME_LIMIT = 300  # seconds for one drawing
 
@@ -27,7 +28,7 @@ def compile_digest(fetexc, drawing, how, jobs, folder):
 
 def assets(art):
     """Yields (name, drawing, options): all drawings as FBTs and silhouette maps, those of two colours as bi-level
-    textures."""
+    textures and pinchmaps."""
     for drawing in sorted(art.glob("*.svg")):
         for size in SIZES:
             yield f"{drawing.stem}.{size}.fbt", drawing, ["--size", str(size)]
@@ -38,6 +39,8 @@ def assets(art):
         for size in BYTES:
             options = ["--repr", "bilevel", "--mips", "--max-bytes", str(size)]
             yield f"alternatives/{drawing.stem}.{size}.bilevel", drawing, options
+        options = ["--repr", "pinchmap", "--mips", "--size", str(CLUSTERS)]
+        yield f"alternatives/{drawing.stem}.pinchmap", drawing, options
 
 
 def digests(fetexc, art):
