@@ -18,10 +18,17 @@ std::uint32_t class_of(const SilmapCellData& c) { return (c.i + 2 * c.j) % kClas
 constexpr double kHeavy = 1.0 / 256;
 constexpr int kSettleRounds = 2, kMostRounds = 32, kHeavyRounds = 4;
 
+/// Square cells: won by settling a point, this makes it worth to settle those around again.
+constexpr double kSpreads = 0.03;
+
 /// Steps of a walk's strides, from the first on.
 std::span<const std::int64_t> strides_of(fetex::SilmapCellFormat format) {
     static constexpr std::int64_t all[] = {8, 2, 1};
     return std::span(all).subspan(format == fetex::SilmapCellFormat::Bits8 ? 2 : 0);
+}
+
+std::span<const std::int64_t> settling_strides_of(fetex::SilmapCellFormat format) {
+    return strides_of(format).first(format == fetex::SilmapCellFormat::Bits8 ? 1 : 2);
 }
 
 class PointFit {
@@ -36,7 +43,9 @@ class PointFit {
 
     FitCounts run(bool thorough) {
         const auto strides = strides_of(format_);
-        const auto settle = [&](PointMoves& m, std::uint32_t k) { return m.settle(k, strides); };
+        const auto settle = [&](PointMoves& m, std::uint32_t k) {
+            return m.settle(k, settling_strides_of(format_)) - kSpreads;
+        };
         for (int round = 0; round < kSettleRounds && sweep(settle); ++round)
             ;
         if (!thorough) return counts_;

@@ -10,8 +10,8 @@
 
 namespace fetexc {
 
-/// Auto: thorough up to kSilmapThoroughCells cells with edges. Of crowded pictures, quick leaves a fifth more wrong
-/// area, and thorough takes twice as long with cells of 8 bits, four times with 16.
+/// Auto: thorough up to kSilmapThoroughCells cells with edges. Of crowded pictures, quick leaves half as much wrong
+/// area again, and thorough takes ten times as long with cells of 8 bits, 25 times with 16 (compiler/silmap/README.md).
 enum class SilmapEffort : std::uint8_t { Auto, Quick, Thorough };
 inline constexpr std::uint64_t kSilmapThoroughCells = 4096;
 
