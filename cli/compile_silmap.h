@@ -15,6 +15,7 @@ namespace fetexc::cli {
 struct SilmapCommandOptions {
     std::uint32_t cell_bits = 8; ///< or 16
     double max_wrong_ppm = 0;    ///< with --size auto; 0: the builder's own
+    std::string effort = "auto"; ///< or "quick", "thorough"
 };
 
 /// What is to be made of a drawing or an image.
@@ -44,7 +45,7 @@ std::uint32_t cell_bits(const fetex::SilmapTexture& texture);
 fetex::SilmapSampleFormat silmap_sample_format(const std::string& name);
 const char* silmap_samples_name(fetex::SilmapSampleFormat format);
 
-/// --cell-bits; --max-wrong, which pinchmaps have as well.
+/// --cell-bits, --effort; --max-wrong, which pinchmaps have as well.
 struct SilmapCliOptions {
     std::vector<CLI::Option*> own;
     CLI::Option* max_wrong = nullptr;
