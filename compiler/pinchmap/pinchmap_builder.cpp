@@ -6,11 +6,10 @@
 #include <string>
 
 #include "compiler/diagnostics.h"
-#include "compiler/pinchmap/pinch_frame.h"
+#include "compiler/pinchmap/map_fit.h"
 #include "compiler/pinchmap/pinchmap_sizes.h"
 #include "compiler/pinchmap/soft_edges.h"
 #include "compiler/pinchmap/two_zones.h"
-#include "compiler/pinchmap/zone_truth.h"
 #include "formats/validate.h"
 
 namespace fetexc {
@@ -58,18 +57,14 @@ void warn_of_crosses(const std::vector<PinchmapTexel>& map, const PinchmapOption
                         static_cast<double>(first / columns) / options.size.height));
 }
 
-/// Map texels, from zones and γ.
-std::vector<PinchmapTexel> fit_map(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
-                                   PinchmapBuild& build) {
-    const auto [width, height] = options.size;
-    const ZoneTruth truth = zone_truth(silhouette, width, height);
-    ZoneMask mask = majority_mask(truth.parts, width, height);
-    build.stats.zones = enforce_constraints(mask, truth);
-    std::vector<PinchmapTexel> map = pinch_frame(mask);
-    build.stats.gamma = fit_gamma(solver, {silhouette, width, height, options.map_format, options.threads}, map);
-    build.stats.wrong_area = build.stats.gamma.wrong;
-    warn_of_crosses(map, options, build);
-    return map;
+std::vector<PinchmapTexel> map_of(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
+                                  PinchmapBuild& build) {
+    MapFit fit =
+        fit_map(solver, {silhouette, options.size.width, options.size.height, options.map_format, options.threads});
+    build.stats.zones = fit.zones, build.stats.gamma = std::move(fit.gamma);
+    build.stats.wrong_area = build.stats.gamma.wrong, build.stats.unmendable = fit.unmendable;
+    warn_of_crosses(fit.map, options, build);
+    return std::move(fit.map);
 }
 
 PinchmapTexture texture_of(const std::vector<PinchmapTexel>& map, const PinchmapOptions& options) {
@@ -125,7 +120,7 @@ Result<PinchmapBuild> compile_pinchmap(const Scene& scene, const PinchmapOptions
     if (!paint) return paint.error();
     PinchmapBuild out;
     const Silhouette& silhouette = zones.value().silhouette;
-    out.texture = texture_of(fit_map(*solver.value(), silhouette, options, out), options);
+    out.texture = texture_of(map_of(*solver.value(), silhouette, options, out), options);
     out.stats.edges_blurred = zones.value().blurred;
     if (zones.value().blurred > 0) {
         warn(out, diag::kPinchmapEdgesBlurred,
@@ -146,7 +141,7 @@ Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapO
     const Result<Silhouette> silhouette = silhouette_of(image, options.silhouette.value_or(SilhouetteRule{}));
     if (!silhouette) return silhouette.error();
     PinchmapBuild out;
-    std::vector<PinchmapTexel> map = fit_map(*solver.value(), silhouette.value(), options, out);
+    std::vector<PinchmapTexel> map = map_of(*solver.value(), silhouette.value(), options, out);
     out.stats.soft_texels = soften(image, silhouette.value(), options.size.width, options.size.height, map);
     out.texture = texture_of(map, options);
     finish(silhouette.value(), image_painter(image, silhouette.value(), grid_of(options)), options, progress, out);

@@ -37,6 +37,7 @@ struct PinchmapStats {
     std::uint64_t soft_texels = 0; ///< of them, where the image's transition is soft: strength below 1
     GammaFit gamma;
     SignalFit signal;
+    double unmendable = 0; ///< square clusters, about, that are wrong because of the zones
     double wrong_area = 0; ///< part of the drawing on the wrong side of the discontinuities
     std::uint64_t gpu_bytes = 0;
 };
