@@ -37,12 +37,11 @@ class TexelPoints {
 
 class Measure {
   public:
-    Measure(const SnappedCurves& curves, const EdgePoints& points) : curves_(curves), points_(points) {
-        found_.resize(curves.texels.size());
-    }
+    Measure(const SnappedCurves& curves, const EdgePoints& points) : curves_(curves), points_(points) {}
 
     void knot(const ShownKnot& k) {
-        Found& f = found_[index(k.knot.i, k.knot.j)];
+        Found& f = found_.emplace_back();
+        f.texel = index(k.knot.i, k.knot.j);
         if (const std::uint8_t kind = missing_kind(k)) f.kinds |= kind;
         if (k.shape.edges == 0) return;
         if (missing_kind(k) != 0 && !curves_.is_used(k.knot.i, k.knot.j, only_edge(k.shape))) {
@@ -61,13 +60,17 @@ class Measure {
     }
 
     std::vector<FeatureMove> run() {
+        std::ranges::sort(found_, {}, &Found::texel);
         std::vector<FeatureMove> moves;
+        std::size_t next = 0;
         for (std::uint32_t j = 0; j < curves_.height; ++j) {
             for (std::uint32_t i = 0; i < curves_.width; ++i) {
+                Found all;
+                for (; next < found_.size() && found_[next].texel == index(i, j); ++next)
+                    all.add(found_[next]);
                 const SnappedTexel& t = curves_.texels[index(i, j)];
-                const Found& f = found_[index(i, j)];
-                if (t.inserted == 0 && f.kinds == 0) continue;
-                const FeatureMove move = move_of(i, j, t, f);
+                if (t.inserted == 0 && all.kinds == 0) continue;
+                const FeatureMove move = move_of(i, j, t, all);
                 if (move.kinds != 0) moves.push_back(move);
             }
         }
@@ -75,10 +78,16 @@ class Measure {
     }
 
   private:
+    /// Of a knot, or of all in a texel.
     struct Found {
+        std::size_t texel = 0;
         std::uint8_t kinds = 0;
-        double vertices = 0, detour = 0; ///< as Away
         EdgeSet edges = 0;               ///< where knots are joined to others
+        double vertices = 0, detour = 0; ///< as Away
+        void add(const Found& other) {
+            kinds |= other.kinds, edges |= other.edges;
+            vertices = std::max(vertices, other.vertices), detour = std::max(detour, other.detour);
+        }
     };
 
     [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j) const {
@@ -130,7 +139,7 @@ class Measure {
         double merged = 0, rerouted = 0;
         for (const FeatureEdge e : fetex::kFeatureEdges)
             if ((edges_of(texel.segments) | f.edges) >> fetex::feature_edge_index(e) & 1u)
-                merged = std::max(merged, points_.at(i, j, e).move());
+                merged = std::max(merged, points_.at(i, j, e).move(t.position(e)));
         const auto replaced = static_cast<SegmentSet>(texel.inserted & ~texel.segments);
         for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
             if (replaced >> k & 1u) rerouted = std::max(rerouted, detour(k, texel.segments, t));

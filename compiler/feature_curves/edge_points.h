@@ -20,14 +20,14 @@ struct EdgePoint {
     }
     /// Equal positions give that position. Precondition: count > 0.
     [[nodiscard]] double position() const { return std::clamp(sum / count, least, most); }
-    /// How far the farthest of its crossings moved.
-    [[nodiscard]] double move() const { return std::max(position() - least, most - position()); }
+    /// How far the farthest of its crossings is from a position between them.
+    [[nodiscard]] double move(double to) const { return std::max(to - least, most - to); }
 };
 
 class EdgePoints {
   public:
     EdgePoints(std::uint32_t width, std::uint32_t height)
-        : columns_(width + 1), points_(2 * std::size_t{columns_} * (std::size_t{height} + 1)) {}
+        : tiles_(width / kTile + 1), points_(std::size_t{tiles_} * (height / kTile + 1) * kTile * kTile * 2) {}
 
     /// Of texel (i,j).
     [[nodiscard]] EdgePoint& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
@@ -41,10 +41,13 @@ class EdgePoints {
     [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
         using enum fetex::FeatureEdge;
         const std::size_t column = i + (e == East ? 1u : 0u), row = j + (e == South ? 1u : 0u);
-        return 2 * (row * columns_ + column) + (e == East || e == West ? 1u : 0u);
+        const std::size_t tile = row / kTile * tiles_ + column / kTile;
+        return 2 * (tile * kTile * kTile + row % kTile * kTile + column % kTile) + (e == East || e == West ? 1u : 0u);
     }
 
-    std::uint32_t columns_;
+    /// Texels a side of what lies together: 64 bytes each, a page of memory. Steep lines would touch a page a texel.
+    static constexpr std::size_t kTile = 8;
+    std::size_t tiles_; ///< in a row
     std::vector<EdgePoint> points_;
 };
 

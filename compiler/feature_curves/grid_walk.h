@@ -30,7 +30,7 @@ struct GridCrossing {
     bool vertical = false; ///< the grid line is
     std::int32_t line = 0; ///< 0 … W of vertical ones, 0 … H of the others
     std::int32_t cell = 0; ///< row, or column, −1 and count outside the canvas
-    double position = 0;   ///< 0 … 1 along the cell, the exact one rounded twice at most
+    double position = 0; ///< 0 … 1 along the cell, the exact one but for four roundings; exact at vertices and corners
 };
 
 /// base + (k-th grid line − start)·delta/length as a whole number and a rest, step by step, exact.
@@ -38,7 +38,7 @@ class GridSteps {
   public:
     /// distance: from the start to the first grid line, along the line's way; length > 0; pitch: between grid lines.
     GridSteps(std::int64_t base, std::int64_t distance, std::int64_t pitch, std::int64_t delta, std::int64_t length)
-        : length_(length) {
+        : length_(length), part_(1 / static_cast<double>(length)) {
         divide(Wide{distance} * delta, whole_, rest_);
         whole_ += base;
         divide(Wide{pitch} * delta, step_whole_, step_rest_);
@@ -57,8 +57,7 @@ class GridSteps {
 
     /// Part of the cell that begins at `origin`.
     [[nodiscard]] double position(std::int64_t origin, std::int64_t pitch) const {
-        return (static_cast<double>(whole_ - origin) + static_cast<double>(rest_) / static_cast<double>(length_)) /
-               static_cast<double>(pitch);
+        return (static_cast<double>(whole_ - origin) + static_cast<double>(rest_) * part_) / static_cast<double>(pitch);
     }
 
   private:
@@ -74,7 +73,9 @@ class GridSteps {
         if (rest < 0) rest += length_, --whole;
     }
 
-    std::int64_t length_, whole_ = 0, rest_ = 0, step_whole_ = 0, step_rest_ = 0;
+    std::int64_t length_;
+    double part_; ///< 1 / length
+    std::int64_t whole_ = 0, rest_ = 0, step_whole_ = 0, step_rest_ = 0;
 };
 
 /// The grid lines across one axis, in the order in which a line gets to them.

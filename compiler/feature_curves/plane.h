@@ -12,7 +12,10 @@ namespace fetexc {
 
 using Chord = std::array<fetex::FeaturePoint, 2>;
 
-inline double distance(fetex::FeaturePoint a, fetex::FeaturePoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
+inline double distance(fetex::FeaturePoint a, fetex::FeaturePoint b) {
+    const double dx = a.x - b.x, dy = a.y - b.y;
+    return std::sqrt(dx * dx + dy * dy);
+}
 
 /// On the chord's line; exact where that is along an axis.
 inline bool on_line(fetex::FeaturePoint p, const Chord& c) {

@@ -178,18 +178,14 @@ class Snapper {
     /// Means of the edges that segments end on.
     void settle_points() {
         const std::size_t corners = (std::size_t{grid_.width} + 1) * (std::size_t{grid_.height} + 1);
-        out_.north.reserve(corners), out_.west.reserve(corners);
-        const auto position = [&](bool used, const EdgePoint& p) {
-            return used ? p.position() : fetex::FeatureCrossing{}.position;
-        };
-        using enum FeatureEdge;
-        for (std::uint32_t j = 0; j <= grid_.height; ++j) {
-            for (std::uint32_t i = 0; i <= grid_.width; ++i) {
-                const bool north = out_.is_used(i, j, North), west = out_.is_used(i, j, West);
-                out_.north.push_back(position(north, points_.at(i, j, North)));
-                out_.west.push_back(position(west, points_.at(i, j, West)));
-                out_.stats.edges_merged += north && points_.at(i, j, North).move() > 0 ? 1 : 0;
-                out_.stats.edges_merged += west && points_.at(i, j, West).move() > 0 ? 1 : 0;
+        out_.north.assign(corners, fetex::FeatureCrossing{}.position);
+        out_.west.assign(corners, fetex::FeatureCrossing{}.position);
+        for (std::uint32_t j = 0; j < grid_.height; ++j) {
+            for (std::uint32_t i = 0; i < grid_.width; ++i) {
+                const EdgeSet edges = edges_of(texel(i, j).segments);
+                for (const FeatureEdge e : fetex::kFeatureEdges)
+                    if (edges >> fetex::feature_edge_index(e) & 1u)
+                        out_.position(i, j, e) = points_.at(i, j, e).position();
             }
         }
     }
@@ -198,7 +194,9 @@ class Snapper {
         SnapStats& s = out_.stats;
         s.lines = lines_.lines.size();
         for (const SnappedTexel& t : out_.texels)
-            s.rerouted += static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(t.inserted & ~t.segments)));
+            if (t.inserted != t.segments)
+                s.rerouted +=
+                    static_cast<std::uint64_t>(std::popcount(static_cast<unsigned>(t.inserted & ~t.segments)));
         for (const ShownKnot& k : knots_) {
             const std::uint8_t kind = missing_kind(k);
             s.ends_cut += kind == kEndCut, s.folded += kind == kFolded, s.lost_inside += kind == kLostInside;
@@ -218,13 +216,6 @@ class Snapper {
 };
 
 } // namespace
-
-double SnappedCurves::position(std::uint32_t i, std::uint32_t j, FeatureEdge e) const {
-    using enum FeatureEdge;
-    const std::size_t column = i + (e == East ? 1u : 0u), row = j + (e == South ? 1u : 0u);
-    const std::size_t corner = row * (std::size_t{width} + 1) + column;
-    return e == East || e == West ? west[corner] : north[corner];
-}
 
 bool SnappedCurves::is_used(std::uint32_t i, std::uint32_t j, FeatureEdge e) const {
     using enum FeatureEdge;

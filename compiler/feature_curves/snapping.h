@@ -33,7 +33,6 @@ struct FeatureMove {
 
 struct SnapStats {
     std::uint64_t lines = 0, crossings = 0, segments = 0; ///< segments: inserted, before the table
-    std::uint64_t edges_merged = 0;                       ///< with crossings apart from each other
     std::uint64_t rerouted = 0;                           ///< segments that the table replaced
     std::uint64_t junctions = 0;                          ///< three and more ways out of a texel joined in it
     std::uint64_t ends_cut = 0, folded = 0, lost_inside = 0;
@@ -54,9 +53,23 @@ struct SnappedCurves {
     std::vector<FeatureMove> moves; ///< row by row
 
     /// Of texel (i,j).
-    [[nodiscard]] double position(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const;
+    [[nodiscard]] double position(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        return is_vertical(e) ? west[corner(i, j, e)] : north[corner(i, j, e)];
+    }
+    [[nodiscard]] double& position(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
+        return is_vertical(e) ? west[corner(i, j, e)] : north[corner(i, j, e)];
+    }
     /// A segment of the texel, or of the one across the edge, ends on it. Of (width, j) and (i, height): West, North.
     [[nodiscard]] bool is_used(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const;
+
+  private:
+    static bool is_vertical(fetex::FeatureEdge e) {
+        return e == fetex::FeatureEdge::East || e == fetex::FeatureEdge::West;
+    }
+    [[nodiscard]] std::size_t corner(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        const std::size_t column = i + (e == fetex::FeatureEdge::East), row = j + (e == fetex::FeatureEdge::South);
+        return row * (std::size_t{width} + 1) + column;
+    }
 };
 
 /// Preconditions: 1 ≤ width, height ≤ 16384. The same result for the same input; one thread.

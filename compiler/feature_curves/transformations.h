@@ -22,12 +22,14 @@ constexpr EdgeSet edges_of_segment(std::uint32_t segment) {
     const fetex::FeatureSegment s = fetex::kFeatureSegments[segment];
     return static_cast<EdgeSet>(1u << fetex::feature_edge_index(s.first) | 1u << fetex::feature_edge_index(s.second));
 }
-constexpr EdgeSet edges_of(SegmentSet set) {
-    unsigned edges = 0;
-    for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
-        if (set >> k & 1u) edges |= edges_of_segment(k);
-    return static_cast<EdgeSet>(edges);
-}
+inline constexpr auto kEdgesOf = [] {
+    std::array<EdgeSet, kSegmentSets> edges{};
+    for (std::uint32_t set = 0; set < kSegmentSets; ++set)
+        for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
+            if (set >> k & 1u) edges[set] = static_cast<EdgeSet>(edges[set] | edges_of_segment(k));
+    return edges;
+}();
+constexpr EdgeSet edges_of(SegmentSet set) { return kEdgesOf[set]; }
 
 /// The segment between two edges. Precondition: they differ.
 constexpr std::uint32_t segment_between(fetex::FeatureEdge a, fetex::FeatureEdge b) {

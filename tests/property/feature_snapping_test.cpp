@@ -73,13 +73,15 @@ std::vector<Stretch> input(const LatticeLines& lines, const SnappedCurves& c) {
     return out;
 }
 
-/// The part of a stretch in a closed texel, if there is any.
-bool clip(Stretch& s, std::uint32_t i, std::uint32_t j) {
+/// The part of a stretch in a closed texel, grown by `touch`, if there is any.
+bool clip(Stretch& s, std::uint32_t i, std::uint32_t j, double touch) {
     double low = 0, high = 1;
     const auto cut = [&](double from, double to, double least) {
         const double d = to - from;
-        if (d == 0) return from >= least && from <= least + 1;
-        const auto [t0, t1] = std::minmax({(least - from) / d, (least + 1 - from) / d});
+        const double most = least + 1 + touch;
+        least -= touch;
+        if (d == 0) return from >= least && from <= most;
+        const auto [t0, t1] = std::minmax({(least - from) / d, (most - from) / d});
         low = std::max(low, t0), high = std::min(high, t1);
         return low <= high;
     };
@@ -106,10 +108,11 @@ void check_distances(const LatticeLines& lines, const SnappedCurves& c) {
         for (std::uint32_t i = 0; i < c.width; ++i) {
             const Reported r = reported.contains({i, j}) ? reported[{i, j}] : Reported{};
             const std::vector<Stretch> after = shown(c, i, j);
-            std::vector<Stretch> before;
+            std::vector<Stretch> before; // with lines that only pass through a corner
             for (Stretch s : all)
-                if (clip(s, i, j)) before.push_back(s);
-            for (const Stretch& s : before) {
+                if (clip(s, i, j, kRounding)) before.push_back(s);
+            for (Stretch s : all) {
+                if (!clip(s, i, j, 0)) continue;
                 // A line along a grid line is shown in one of the two texels beside it.
                 const auto border = [](double a, double b) {
                     return std::max(std::abs(a - std::round(a)), std::abs(b - std::round(a))) < kRounding;
