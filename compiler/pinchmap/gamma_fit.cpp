@@ -82,7 +82,7 @@ GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vecto
         a.steps = a.trace.size();
         a.tried = fit_stored(coarse.cells, a.stored, {pinch.levels()}, {kSweeps, 0}, a.trace);
         a.tried += fit_stored(fine.cells, a.stored, {pinch.levels()}, {kSweeps, kPairSweeps}, a.trace);
-        a.area = a.trace.back();
+        a.area = a.trace.empty() ? 0 : a.trace.back(); // nothing to fit
     });
     const Attempt& best = *std::ranges::min_element(attempts, {}, &Attempt::area);
     for (const std::uint32_t t : coarse.cells.texels())
