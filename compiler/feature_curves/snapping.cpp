@@ -80,9 +80,18 @@ class Snapper {
         const std::uint32_t cells = c.vertical ? grid_.height : grid_.width;
         if (c.cell < 0 || c.cell >= static_cast<std::int32_t>(cells)) return;
         const auto line = static_cast<std::uint32_t>(c.line), cell = static_cast<std::uint32_t>(c.cell);
-        (c.vertical ? points_.at(line, cell, FeatureEdge::West) : points_.at(cell, line, FeatureEdge::North))
-            .add(c.position);
-        ++out_.stats.crossings;
+        EdgePoint& p =
+            c.vertical ? points_.at(line, cell, FeatureEdge::West) : points_.at(cell, line, FeatureEdge::North);
+        __builtin_prefetch(&p, 1);
+        crossed_.push_back({&p, c.position});
+    }
+
+    /// After the whole line, when memory had time to arrive: most of the time was spent waiting for it.
+    void add_crossings() {
+        for (const auto& [point, position] : crossed_)
+            point->add(position);
+        out_.stats.crossings += crossed_.size();
+        crossed_.clear();
     }
 
     void insert_line(std::uint32_t a, std::uint32_t b) {
@@ -107,6 +116,7 @@ class Snapper {
             else
                 j += to.y > from.y ? 1 : -1;
         });
+        add_crossings();
         ++degree_[a], ++degree_[b];
         if (crossed) {
             if (on_canvas(i, j)) add_arm(b, in, position);
@@ -208,6 +218,7 @@ class Snapper {
     EdgePoints points_;
     UnionFind inside_; ///< vertices joined by lines that leave no texel
     std::vector<std::uint32_t> degree_;
+    std::vector<std::pair<EdgePoint*, double>> crossed_; ///< by the line being inserted
     std::vector<KnotVertex> vertices_;
     std::vector<KnotArm> arms_;
     std::vector<KnotLine> knot_lines_;
