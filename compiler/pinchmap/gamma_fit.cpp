@@ -108,4 +108,17 @@ double wrong_part(const GammaProblem& problem, std::span<const PinchmapTexel> ma
     return scan.cells.wrong_area(values) / (static_cast<double>(problem.width) * problem.height);
 }
 
+std::vector<double> wrong_around(const GammaProblem& problem, std::span<const PinchmapTexel> map) {
+    const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
+    const Scan scan(problem, outline, active_texels(map), kFitLines);
+    const std::vector<float> values = PinchLevels(map, problem.format).values(map);
+    std::vector<double> out(map.size(), 0);
+    for (const Cell& c : scan.cells.cells()) {
+        const double area = scan.cells.wrong_area_in(values, c);
+        for (const std::uint32_t texel : scan.cells.corners(c))
+            out[texel] += area;
+    }
+    return out;
+}
+
 } // namespace fetexc

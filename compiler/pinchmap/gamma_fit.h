@@ -55,4 +55,7 @@ GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vecto
 /// of 4.
 double wrong_part(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map, std::uint32_t lines);
 
+/// Of each map texel, the square clusters on the wrong side in the clusters around it.
+std::vector<double> wrong_around(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map);
+
 } // namespace fetexc

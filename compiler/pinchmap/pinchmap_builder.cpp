@@ -42,6 +42,17 @@ void warn_of_losses(const SignalFit& signal, PinchmapBuild& build) {
              place_text(signal.lost_u, signal.lost_v));
 }
 
+void warn_of_lost_edges(PinchmapBuild& build) {
+    const LostEdges& lost = build.stats.lost_edges;
+    if (lost.texels == 0) return;
+    char worst[32];
+    std::snprintf(worst, sizeof worst, "%.2f", lost.worst);
+    warn(build, diag::kPinchmapPartsLost,
+         "edges are blurred at " + std::to_string(lost.texels) +
+             " places where the map can't follow them; at the worst, " + place_text(lost.u, lost.v) + ", " + worst +
+             " of a cluster would be wrong");
+}
+
 void warn_of_crosses(const std::vector<PinchmapTexel>& map, const PinchmapOptions& options, PinchmapBuild& build) {
     const std::size_t columns = std::size_t{options.size.width} + 1;
     std::size_t first = 0;
@@ -59,11 +70,14 @@ void warn_of_crosses(const std::vector<PinchmapTexel>& map, const PinchmapOption
 
 std::vector<PinchmapTexel> map_of(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
                                   PinchmapBuild& build) {
-    MapFit fit =
-        fit_map(solver, {silhouette, options.size.width, options.size.height, options.map_format, options.threads});
+    const GammaProblem problem{silhouette, options.size.width, options.size.height, options.map_format,
+                               options.threads};
+    MapFit fit = fit_map(solver, problem);
     build.stats.zones = fit.zones, build.stats.gamma = std::move(fit.gamma);
     build.stats.wrong_area = build.stats.gamma.wrong, build.stats.unmendable = fit.unmendable;
     warn_of_crosses(fit.map, options, build);
+    build.stats.lost_edges = blur_lost_edges(problem, fit.map);
+    warn_of_lost_edges(build);
     return std::move(fit.map);
 }
 

@@ -9,6 +9,7 @@
 #include "compiler/bilevel/silhouette.h"
 #include "compiler/compile.h"
 #include "compiler/pinchmap/gamma_fit.h"
+#include "compiler/pinchmap/lost_edges.h"
 #include "compiler/pinchmap/signal_fit.h"
 #include "compiler/pinchmap/zone_mask.h"
 #include "formats/pinchmap.h"
@@ -34,6 +35,7 @@ struct PinchmapStats {
     MaskMoves zones;
     std::uint64_t active = 0;      ///< map texels where a discontinuity passes
     std::uint64_t crosses = 0;     ///< of them, where two cross: nothing is pinched (W5132)
+    LostEdges lost_edges;          ///< where edges are blurred for want of clusters (W5131)
     std::uint64_t soft_texels = 0; ///< of them, where the image's transition is soft: strength below 1
     GammaFit gamma;
     SignalFit signal;

@@ -150,6 +150,24 @@ TEST(PinchmapBuilder, whatIsTooSmallIsNamed) {
     EXPECT_FALSE(says(build(art("alternatives/icon"), options_of(32)), diag::kPinchmapPartsLost));
 }
 
+/// Stripes of a third of a cluster: blurred everywhere, to their mean, and said so. A shape with room has none such.
+TEST(PinchmapBuilder, crowdedEdgesAreBlurred) {
+    std::string text =
+        R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="320" height="320"><rect width="320" height="320" fill="#fff"/>)svg";
+    for (int k = 0; k < 20; ++k)
+        text += "<rect x='" + std::to_string(100 + 6 * k) + "' y='60' width='3' height='200'/>";
+    const PinchmapBuild b = build(scene_of_svg(text + "</svg>"), options_of(32));
+    EXPECT_GT(b.stats.lost_edges.texels, 50u);
+    EXPECT_GT(b.stats.lost_edges.worst, 0.5);
+    EXPECT_TRUE(says(b, diag::kPinchmapPartsLost));
+    EXPECT_TRUE(fetex::pinchmap_is_open(b.texture));
+    double sum = 0;
+    for (int k = 0; k < 100; ++k)
+        sum += fetex::pinchmap_sample(b.texture, 12 + 0.08 * k, 16.3).r;
+    EXPECT_NEAR(sum / 100, 0.5, 0.1);
+    EXPECT_EQ(build(art("alternatives/gear_logo"), options_of(32)).stats.lost_edges.texels, 0u);
+}
+
 /// Three colours that all touch: two zones can't hold them.
 TEST(PinchmapBuilder, edgesInAZoneAreNamed) {
     const std::string text =
