@@ -31,20 +31,6 @@ FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes
     return path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
 }
 
-std::unique_ptr<const measure::Picture> picture_of(const fetex::FbtTexture& t) {
-    return std::make_unique<const measure::FbtPicture>(t);
-}
-std::unique_ptr<const measure::Picture> picture_of(const fetex::BilevelTexture& t) {
-    return std::make_unique<const measure::BilevelPicture>(t);
-}
-std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t) {
-    return std::make_unique<const measure::SilmapPicture>(t);
-}
-
-std::unique_ptr<const measure::Picture> picture_of(const fetex::PinchmapTexture& t) {
-    return std::make_unique<const measure::PinchmapPicture>(t);
-}
-
 std::string name_of(const fetex::FbtTexture&) { return "FBT"; }
 std::string name_of(const fetex::BilevelTexture& t) { return fmt::format("bi-level texture ({})", rule_name(t.rule)); }
 std::string name_of(const fetex::SilmapTexture& t) {
@@ -59,7 +45,7 @@ Result<ComparedPicture> asset_picture(const ComparedFile& file, const std::strin
     if (const Status s = choose_representation(input.value().file, representation, file.path); !s) return s.error();
     ComparedPicture out;
     out.asset = std::make_unique<const fetex::FetexFile>(std::move(input.value().file));
-    out.picture = with_texture(*out.asset, [](const auto& texture) { return picture_of(texture); });
+    out.picture = with_texture(*out.asset, [](const auto& texture) { return measure::picture_of(texture); });
     const GridSize size = out.picture->texels();
     out.description = fmt::format("{} of {} x {} texels, {} bytes on the GPU",
                                   with_texture(*out.asset, [](const auto& texture) { return name_of(texture); }),

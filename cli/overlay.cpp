@@ -11,45 +11,62 @@ constexpr Ink kHalo{1, 1, 1, 0.7F}, kBoundary{0.85F, 0, 0.45F, 1}, kLink{0.1F, 0
 /// Pixels a cell from which its sides and other links are drawn, and the texels' colours.
 constexpr double kRoomForSides = 12, kRoomForTexels = 28;
 
-class SilmapOverlay {
+/// A texture's view in pixels.
+class Frame {
   public:
-    SilmapOverlay(const fetex::SilmapTexture& texture, const fetex::View& view, fetex::Image& image)
-        : texture_(texture), view_(view), pen_(image), scale_x_(image.width / (view.w * texture.width)),
-          scale_y_(image.height / (view.h * texture.height)), room_(std::min(scale_x_, scale_y_)) {}
+    Frame(std::uint32_t width, std::uint32_t height, const fetex::View& view, const fetex::Image& image)
+        : width_(width), height_(height), view_(view), scale_x_(image.width / (view.w * width)),
+          scale_y_(image.height / (view.h * height)) {}
 
-    void draw() {
-        if (room_ >= kRoomForSides) {
-            each_cell([&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
-            each_cell([&](std::uint32_t i, std::uint32_t j) { draw_links(i, j, false); });
-        }
-        if (room_ >= kRoomForTexels) each_cell([&](std::uint32_t i, std::uint32_t j) { draw_texel(i, j); });
-        each_cell([&](std::uint32_t i, std::uint32_t j) { draw_links(i, j, true); });
-        each_cell([&](std::uint32_t i, std::uint32_t j) { draw_point(i, j); });
-    }
-
-  private:
+    /// Of a point in texels.
     [[nodiscard]] Pixel at(double x, double y) const {
-        return {(x - view_.x * texture_.width) * scale_x_, (y - view_.y * texture_.height) * scale_y_};
+        return {(x - view_.x * width_) * scale_x_, (y - view_.y * height_) * scale_y_};
     }
-    /// A local place of a cell.
-    [[nodiscard]] Pixel at(std::uint32_t i, std::uint32_t j, fetex::SilmapPoint p) const {
-        return at(i - 0.5 + p.x, j - 0.5 + p.y);
-    }
-    [[nodiscard]] double thickness() const { return std::clamp(room_ / 10, 1.0, 4.0); }
+    /// Pixels a texel.
+    [[nodiscard]] double room() const { return std::min(scale_x_, scale_y_); }
+    [[nodiscard]] double thickness() const { return std::clamp(room() / 10, 1.0, 4.0); }
 
-    /// Those that show, and those beside them, whose links reach in.
-    template <class Visit> void each_cell(const Visit& visit) const {
-        const auto range = [](double from, double extent, std::uint32_t size) {
+    /// visit(i, j): of 0 … width by 0 … height those that show, and those up to `reach` beside them.
+    template <class Visit> void each(double reach, const Visit& visit) const {
+        const auto range = [&](double from, double extent, std::uint32_t size) {
             const auto bound = [&](double v) {
                 return static_cast<std::uint32_t>(std::clamp(std::floor(v), 0.0, double{1} * size));
             };
-            return std::array{bound(from * size - 0.5), bound((from + extent) * size + 1.5)};
+            return std::array{bound(from * size - reach), bound((from + extent) * size + 1 + reach)};
         };
-        const auto is = range(view_.x, view_.w, texture_.width), js = range(view_.y, view_.h, texture_.height);
+        const auto is = range(view_.x, view_.w, width_), js = range(view_.y, view_.h, height_);
         for (std::uint32_t j = js[0]; j <= js[1]; ++j) {
             for (std::uint32_t i = is[0]; i <= is[1]; ++i)
                 visit(i, j);
         }
+    }
+
+  private:
+    std::uint32_t width_, height_;
+    const fetex::View& view_;
+    double scale_x_, scale_y_;
+};
+
+class SilmapOverlay {
+  public:
+    SilmapOverlay(const fetex::SilmapTexture& texture, const fetex::View& view, fetex::Image& image)
+        : texture_(texture), frame_(texture.width, texture.height, view, image), pen_(image) {}
+
+    void draw() {
+        if (frame_.room() >= kRoomForSides) {
+            frame_.each(0.5, [&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
+            frame_.each(0.5, [&](std::uint32_t i, std::uint32_t j) { draw_links(i, j, false); });
+        }
+        if (frame_.room() >= kRoomForTexels)
+            frame_.each(0.5, [&](std::uint32_t i, std::uint32_t j) { draw_texel(i, j); });
+        frame_.each(0.5, [&](std::uint32_t i, std::uint32_t j) { draw_links(i, j, true); });
+        frame_.each(0.5, [&](std::uint32_t i, std::uint32_t j) { draw_point(i, j); });
+    }
+
+  private:
+    /// A local place of a cell.
+    [[nodiscard]] Pixel at(std::uint32_t i, std::uint32_t j, fetex::SilmapPoint p) const {
+        return frame_.at(i - 0.5 + p.x, j - 0.5 + p.y);
     }
 
     void draw_sides(std::uint32_t i, std::uint32_t j) {
@@ -64,8 +81,8 @@ class SilmapOverlay {
             const bool boundary = (shape.boundaries >> link & 1) != 0;
             if (boundary != boundaries || (!boundary && shape.boundaries == 0 && !has_boundaries(i, j, link))) continue;
             const Pixel from = at(i, j, shape.point), to = at(i, j, shape.across[link]);
-            if (boundary) pen_.line(from, to, 2 * thickness(), kHalo);
-            pen_.line(from, to, boundary ? thickness() : 1, boundary ? kBoundary : kLink);
+            if (boundary) pen_.line(from, to, 2 * frame_.thickness(), kHalo);
+            pen_.line(from, to, boundary ? frame_.thickness() : 1, boundary ? kBoundary : kLink);
         }
     }
 
@@ -77,9 +94,9 @@ class SilmapOverlay {
 
     void draw_point(std::uint32_t i, std::uint32_t j) {
         const fetex::SilmapShape shape = fetex::silmap_shape(texture_, i, j);
-        if (shape.boundaries == 0 || room_ < kRoomForSides) return;
-        pen_.disc(at(i, j, shape.point), thickness() + 1, kRim);
-        pen_.disc(at(i, j, shape.point), thickness(), kPoint);
+        if (shape.boundaries == 0 || frame_.room() < kRoomForSides) return;
+        pen_.disc(at(i, j, shape.point), frame_.thickness() + 1, kRim);
+        pen_.disc(at(i, j, shape.point), frame_.thickness(), kPoint);
     }
 
     /// The texel below and to the right of a cell's corner.
@@ -87,54 +104,33 @@ class SilmapOverlay {
         if (i >= texture_.width || j >= texture_.height) return;
         const fetex::FbtColor c = fetex::silmap_sample(texture_, i + 0.5, j + 0.5, fetex::SilmapFilter::Nearest);
         const auto straight = [&](double v) { return static_cast<float>(c.a > 0 ? std::min(v / c.a, 1.0) : 0); };
-        const double radius = std::min(room_ / 8, 6.0);
-        pen_.disc(at(i + 0.5, j + 0.5), radius + 1.5, kRim);
-        pen_.disc(at(i + 0.5, j + 0.5), radius + 0.5, kHalo);
-        pen_.disc(at(i + 0.5, j + 0.5), radius, {straight(c.r), straight(c.g), straight(c.b), static_cast<float>(c.a)});
+        const double radius = std::min(frame_.room() / 8, 6.0);
+        pen_.disc(frame_.at(i + 0.5, j + 0.5), radius + 1.5, kRim);
+        pen_.disc(frame_.at(i + 0.5, j + 0.5), radius + 0.5, kHalo);
+        pen_.disc(frame_.at(i + 0.5, j + 0.5), radius,
+                  {straight(c.r), straight(c.g), straight(c.b), static_cast<float>(c.a)});
     }
 
     const fetex::SilmapTexture& texture_;
-    const fetex::View& view_;
+    Frame frame_;
     Pen pen_;
-    double scale_x_, scale_y_; ///< pixels a texel
-    double room_;
 };
 
 class PinchmapOverlay {
   public:
     PinchmapOverlay(const fetex::PinchmapTexture& texture, const fetex::View& view, fetex::Image& image)
-        : texture_(texture), view_(view), pen_(image), scale_x_(image.width / (view.w * texture.width)),
-          scale_y_(image.height / (view.h * texture.height)), room_(std::min(scale_x_, scale_y_)) {}
+        : texture_(texture), frame_(texture.width, texture.height, view, image), pen_(image) {}
 
     void draw() {
-        if (room_ >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
-        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_line(i, j); });
-        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_arrow(i, j); });
+        if (frame_.room() >= kRoomForSides) frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
+        frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_line(i, j); });
+        frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_arrow(i, j); });
     }
 
   private:
-    [[nodiscard]] Pixel at(double x, double y) const {
-        return {(x - view_.x * texture_.width) * scale_x_, (y - view_.y * texture_.height) * scale_y_};
-    }
-    [[nodiscard]] double thickness() const { return std::clamp(room_ / 10, 1.0, 4.0); }
-
-    template <class Visit> void each_texel(const Visit& visit) const {
-        const auto range = [](double from, double extent, std::uint32_t size) {
-            const auto bound = [&](double v) {
-                return static_cast<std::uint32_t>(std::clamp(std::floor(v), 0.0, double{1} * size));
-            };
-            return std::array{bound(from * size - 1), bound((from + extent) * size + 1)};
-        };
-        const auto is = range(view_.x, view_.w, texture_.width), js = range(view_.y, view_.h, texture_.height);
-        for (std::uint32_t j = js[0]; j <= js[1]; ++j) {
-            for (std::uint32_t i = is[0]; i <= is[1]; ++i)
-                visit(i, j);
-        }
-    }
-
     void draw_sides(std::uint32_t i, std::uint32_t j) {
-        if (i < texture_.width) pen_.dashed(at(i, j), at(i + 1.0, j), 1, kSide);
-        if (j < texture_.height) pen_.dashed(at(i, j), at(i, j + 1.0), 1, kSide);
+        if (i < texture_.width) pen_.dashed(frame_.at(i, j), frame_.at(i + 1.0, j), 1, kSide);
+        if (j < texture_.height) pen_.dashed(frame_.at(i, j), frame_.at(i, j + 1.0), 1, kSide);
     }
 
     /// The discontinuity in a cluster: where k − gamma, bilinear, is 0.
@@ -162,29 +158,28 @@ class PinchmapOverlay {
                      xa = crossing(mix(f[0], f[2], a), mix(f[1], f[3], a)),
                      xb = crossing(mix(f[0], f[2], b), mix(f[1], f[3], b));
         const auto line = [&](Pixel p, Pixel q) {
-            pen_.line(p, q, 2 * thickness(), kHalo);
-            pen_.line(p, q, thickness(), kBoundary);
+            pen_.line(p, q, 2 * frame_.thickness(), kHalo);
+            pen_.line(p, q, frame_.thickness(), kBoundary);
         };
-        if (ya >= 0 && yb >= 0) line(at(i + a, j + ya), at(i + b, j + yb));
-        if (xa >= 0 && xb >= 0) line(at(i + xa, j + a), at(i + xb, j + b));
+        if (ya >= 0 && yb >= 0) line(frame_.at(i + a, j + ya), frame_.at(i + b, j + yb));
+        if (xa >= 0 && xb >= 0) line(frame_.at(i + xa, j + a), frame_.at(i + xb, j + b));
     }
 
     /// Of an active texel: which way it pinches, as long as its strength lets.
     void draw_arrow(std::uint32_t i, std::uint32_t j) {
         const fetex::PinchmapTexel t = fetex::pinchmap_texel(texture_, i, j);
-        if (t.k != 0 || room_ < kRoomForSides) return;
-        const Pixel from = at(i - 0.35 * t.du, j - 0.35 * t.dv), to = at(i + 0.35 * t.du, j + 0.35 * t.dv);
+        if (t.k != 0 || frame_.room() < kRoomForSides) return;
+        const Pixel from = frame_.at(i - 0.35 * t.du, j - 0.35 * t.dv),
+                    to = frame_.at(i + 0.35 * t.du, j + 0.35 * t.dv);
         pen_.line(from, to, 1.5, kLink);
-        pen_.disc(to, thickness(), kLink);
-        pen_.disc(at(i, j), thickness() + 1, kRim);
-        pen_.disc(at(i, j), thickness(), kPoint);
+        pen_.disc(to, frame_.thickness(), kLink);
+        pen_.disc(frame_.at(i, j), frame_.thickness() + 1, kRim);
+        pen_.disc(frame_.at(i, j), frame_.thickness(), kPoint);
     }
 
     const fetex::PinchmapTexture& texture_;
-    const fetex::View& view_;
+    Frame frame_;
     Pen pen_;
-    double scale_x_, scale_y_; ///< pixels a cluster
-    double room_;
 };
 
 } // namespace

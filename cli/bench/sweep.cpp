@@ -74,21 +74,10 @@ struct Rival {
     std::function<void(SamplerTimer&, BenchTimes&)> time; ///< its samplers; empty: the bitmap's alone
 };
 
-std::unique_ptr<const measure::Picture> picture_of(const fetex::BilevelTexture& t) {
-    return std::make_unique<const measure::BilevelPicture>(t);
-}
-std::unique_ptr<const measure::Picture> picture_of(const fetex::SilmapTexture& t) {
-    return std::make_unique<const measure::SilmapPicture>(t);
-}
-
-std::unique_ptr<const measure::Picture> picture_of(const fetex::PinchmapTexture& t) {
-    return std::make_unique<const measure::PinchmapPicture>(t);
-}
-
 /// Gives the rival its texture, which picture and timer share.
 template <class Texture> void show(Rival& rival, Texture made) {
     const auto texture = std::make_shared<const Texture>(std::move(made));
-    rival.picture = picture_of(*texture);
+    rival.picture = measure::picture_of(*texture);
     rival.time = [texture](SamplerTimer& timer, BenchTimes& times) {
         times.sampler = timer.cost(*texture);
         if (!times.sampler) times.why_no_sampler = timer.why();

@@ -2,6 +2,7 @@
 /// Pictures to judge: vector textures through the reference samplers, and a bitmap.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,18 @@ class PinchmapPicture final : public Picture {
   private:
     const fetex::PinchmapTexture& texture_;
 };
+
+/// Of a validated texture that outlives the picture.
+inline std::unique_ptr<const Picture> picture_of(const fetex::FbtTexture& t) { return std::make_unique<FbtPicture>(t); }
+inline std::unique_ptr<const Picture> picture_of(const fetex::BilevelTexture& t) {
+    return std::make_unique<BilevelPicture>(t);
+}
+inline std::unique_ptr<const Picture> picture_of(const fetex::SilmapTexture& t) {
+    return std::make_unique<SilmapPicture>(t);
+}
+inline std::unique_ptr<const Picture> picture_of(const fetex::PinchmapTexture& t) {
+    return std::make_unique<PinchmapPicture>(t);
+}
 
 /// Stretched over the canvas, without mip levels; borders are clamped.
 class BitmapPicture final : public Picture {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <random>
 
@@ -14,26 +12,15 @@
 #include "compiler/bilevel/seed.h"
 #include "compiler/bilevel/threshold_cells.h"
 #include "compiler/error_budget.h"
-#include "compiler/svg/svg.h"
+#include "tests/support/art_scenes.h"
 #include "tests/support/drawn_scene.h"
 
 namespace fetexc {
 namespace {
 
 using fetex::BilevelRule;
-
-const char* const kShapes[] = {"gear_logo", "glyph_g", "icon", "serif_letter", "star", "yin_yang"};
-
-Silhouette shape(const std::string& name) {
-    std::ifstream in(std::filesystem::path(FETEXC_ART_DIR) / "alternatives" / (name + ".svg"), std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::vector<Diagnostic> said;
-    const auto scene = load_svg({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, {}, said);
-    EXPECT_TRUE(scene.ok()) << name;
-    auto made = silhouette_of(scene.value(), {}, 1);
-    EXPECT_TRUE(made.ok()) << name;
-    return std::move(made).value();
-}
+using test::kShapes;
+using test::silhouette_of_shape;
 
 GridSize square_of(double bytes) {
     const auto side = static_cast<std::uint32_t>(std::sqrt(bytes));
@@ -77,7 +64,7 @@ struct Bar {
 double mean_ppm(double bytes, std::uint32_t channels) {
     double logs = 0;
     for (const char* name : kShapes) {
-        const Silhouette s = shape(name);
+        const Silhouette s = silhouette_of_shape(name);
         const BilevelBuild b = fit(s, square_of(bytes), channels);
         EXPECT_LE(b.texture.texels.size(), bytes * 1.001) << name;
         EXPECT_EQ(b.stats.parts.invented, 0u) << name << " " << bytes;
@@ -104,7 +91,7 @@ TEST(BilevelFit, sixShapesInAsManyBytesOfMoreChannels) {
 
 /// Of any values, by every rule.
 TEST(BilevelFit, areasAreThoseOfTheSampler) {
-    const Silhouette s = shape("glyph_g");
+    const Silhouette s = silhouette_of_shape("glyph_g");
     std::mt19937 random(5);
     for (const BilevelRule rule : {BilevelRule::Single, BilevelRule::Min, BilevelRule::Max, BilevelRule::Median}) {
         fetex::BilevelTexture t;
@@ -122,7 +109,7 @@ TEST(BilevelFit, areasAreThoseOfTheSampler) {
 }
 
 TEST(BilevelFit, reportsWhatTheSamplerShows) {
-    const Silhouette s = shape("glyph_g");
+    const Silhouette s = silhouette_of_shape("glyph_g");
     for (const std::uint32_t channels : {1u, 2u, 3u}) {
         const BilevelBuild b = fit(s, {40, 40}, channels);
         EXPECT_NEAR(wrong_points(s, b.texture) * 1e6, b.stats.fits[0].wrong * 1e6, 60) << channels;
@@ -131,7 +118,7 @@ TEST(BilevelFit, reportsWhatTheSamplerShows) {
 }
 
 TEST(BilevelFit, isTheSameForAnyThreads) {
-    const Silhouette s = shape("star");
+    const Silhouette s = silhouette_of_shape("star");
     BilevelOptions options;
     options.size = {30, 30}, options.mips = true;
     options.threads = 1;
@@ -146,7 +133,7 @@ TEST(BilevelFit, isTheSameForAnyThreads) {
 TEST(BilevelFit, keepsAwayFromGreysIfTold) {
     BilevelOptions options;
     options.size = {40, 40}, options.channels = 1, options.greys = MidGreys::Avoid;
-    const auto made = compile_bilevel(shape("icon"), options);
+    const auto made = compile_bilevel(silhouette_of_shape("icon"), options);
     EXPECT_TRUE(std::ranges::none_of(made.value().texture.texels, [](std::uint8_t v) { return v >= 112 && v <= 143; }));
 }
 
@@ -173,7 +160,7 @@ TEST(BilevelFit, aPictureOfOneColourIsFlat) {
 }
 
 TEST(BilevelFit, levelsAreCoverage) {
-    const Silhouette s = shape("yin_yang");
+    const Silhouette s = silhouette_of_shape("yin_yang");
     BilevelOptions options;
     options.size = {32, 32}, options.channels = 1, options.mips = true;
     const auto made = compile_bilevel(s, options);
@@ -185,7 +172,7 @@ TEST(BilevelFit, levelsAreCoverage) {
 /// Between the levels nothing is grey that isn't half covered: pictures of n pixels a side against exact coverage.
 TEST(BilevelFit, levelsChangeWithoutHalos) {
     for (const char* name : kShapes) {
-        const Silhouette s = shape(name);
+        const Silhouette s = silhouette_of_shape(name);
         BilevelOptions options;
         options.size = {64, 64}, options.channels = 1, options.mips = true;
         fetex::BilevelTexture t = compile_bilevel(s, options).value().texture;
@@ -214,7 +201,7 @@ TEST(BilevelFit, levelsChangeWithoutHalos) {
 /// A picture of 1024² pixels says as much as the drawing.
 TEST(BilevelFit, ofABitmapIsAsGoodAsOfTheDrawing) {
     for (const char* name : kShapes) {
-        const Silhouette drawn = shape(name);
+        const Silhouette drawn = silhouette_of_shape(name);
         constexpr std::uint32_t kSide = 1024;
         RasterImage image{kSide, kSide, {}};
         for (const double part : coverage(drawn, kSide, kSide)) {

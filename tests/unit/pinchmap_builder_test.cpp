@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "compiler/diagnostics.h"
@@ -13,8 +11,8 @@
 #include "compiler/measure/errors.h"
 #include "compiler/pinchmap/pinchmap_builder.h"
 #include "compiler/pinchmap/pinchmap_sizes.h"
-#include "compiler/svg/svg.h"
 #include "formats/validate.h"
+#include "tests/support/art_scenes.h"
 #include "tests/support/raster_picture.h"
 
 namespace fetexc {
@@ -22,19 +20,9 @@ namespace {
 
 using fetex::PinchmapFormat;
 using fetex::PinchmapSampleFormat;
-
-const char* const kShapes[] = {"gear_logo", "glyph_g", "icon", "serif_letter", "star", "yin_yang"};
-
-Scene scene_of_svg(const std::string& text) {
-    std::vector<Diagnostic> said;
-    auto made = load_svg({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {}, said);
-    EXPECT_TRUE(made.ok());
-    return std::move(made).value();
-}
-Scene art(const std::string& name) {
-    std::ifstream in(std::filesystem::path(FETEXC_ART_DIR) / (name + ".svg"), std::ios::binary);
-    return scene_of_svg({std::istreambuf_iterator<char>(in), {}});
-}
+using test::art;
+using test::kShapes;
+using test::scene_of_svg;
 
 PinchmapOptions options_of(std::uint32_t side, std::uint32_t scale = 0) {
     PinchmapOptions options;

@@ -5,14 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "compiler/pinchmap/gamma_fit.h"
 #include "compiler/pinchmap/pinch_frame.h"
 #include "compiler/pinchmap/zone_truth.h"
-#include "compiler/svg/svg.h"
+#include "tests/support/art_scenes.h"
 #include "tests/support/gamma_annealing.h"
 
 namespace fetexc {
@@ -20,19 +18,8 @@ namespace {
 
 using fetex::PinchmapFormat;
 using fetex::PinchmapTexel;
-
-const char* const kShapes[] = {"gear_logo", "glyph_g", "icon", "serif_letter", "star", "yin_yang"};
-
-Silhouette shape(const std::string& name) {
-    std::ifstream in(std::filesystem::path(FETEXC_ART_DIR) / "alternatives" / (name + ".svg"), std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::vector<Diagnostic> said;
-    const auto scene = load_svg({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, {}, said);
-    EXPECT_TRUE(scene.ok()) << name;
-    auto made = silhouette_of(scene.value(), {}, 1);
-    EXPECT_TRUE(made.ok()) << name;
-    return std::move(made).value();
-}
+using test::kShapes;
+using test::silhouette_of_shape;
 
 ZoneMask zones(const Silhouette& s, std::uint32_t side) {
     const ZoneTruth truth = zone_truth(s, side, side);
@@ -47,7 +34,7 @@ const Solver& solver() { return *load_solver().value(); }
 double mean_wrong(std::uint32_t side, PinchmapFormat format) {
     double logs = 0;
     for (const char* name : kShapes) {
-        const Silhouette s = shape(name);
+        const Silhouette s = silhouette_of_shape(name);
         std::vector<PinchmapTexel> map = pinch_frame(zones(s, side));
         logs += std::log(fit_gamma(solver(), {s, side, side, format, 0}, map).wrong);
     }
@@ -73,7 +60,7 @@ TEST(PinchmapGamma, sixShapes) {
 TEST(PinchmapGamma, theFigureIsWhatTheSamplerShows) {
     constexpr std::uint32_t kPoints = 1500;
     for (const PinchmapFormat format : {PinchmapFormat::Bits8, PinchmapFormat::Bits16}) {
-        const Silhouette s = shape("glyph_g");
+        const Silhouette s = silhouette_of_shape("glyph_g");
         fetex::PinchmapTexture t;
         t.width = t.height = 24, t.map_format = format;
         std::vector<PinchmapTexel> map = pinch_frame(zones(s, 24));
@@ -96,7 +83,7 @@ TEST(PinchmapGamma, theFigureIsWhatTheSamplerShows) {
 }
 
 TEST(PinchmapGamma, isTheSameForAnyThreads) {
-    const Silhouette s = shape("star");
+    const Silhouette s = silhouette_of_shape("star");
     std::vector<PinchmapTexel> one = pinch_frame(zones(s, 20)), four = one;
     fit_gamma(solver(), {s, 20, 20, PinchmapFormat::Bits8, 1}, one);
     fit_gamma(solver(), {s, 20, 20, PinchmapFormat::Bits8, 4}, four);
@@ -120,7 +107,7 @@ TEST(PinchmapGamma, beatsThePapersSearch) {
     const char* const asked = std::getenv("FETEXC_ANNEALING");
     const double seconds = asked != nullptr ? std::atof(asked) : 2;
     for (const char* name : {"glyph_g", "gear_logo"}) {
-        const Silhouette s = shape(name);
+        const Silhouette s = silhouette_of_shape(name);
         const test::PixelZones pixels = pixels_of(s, 32, 32);
         const std::vector<PinchmapTexel> frame = pinch_frame(zones(s, 32));
         std::vector<PinchmapTexel> ours = frame, theirs = frame;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "compiler/bilevel/coverage.h"
@@ -13,26 +11,16 @@
 #include "compiler/silmap/cell_fit.h"
 #include "compiler/silmap/cell_reader.h"
 #include "compiler/silmap/silmap_builder.h"
-#include "compiler/svg/svg.h"
+#include "tests/support/art_scenes.h"
 #include "tests/support/drawn_scene.h"
 
 namespace fetexc {
 namespace {
 
 using fetex::SilmapCellFormat;
-
-const char* const kShapes[] = {"gear_logo", "glyph_g", "icon", "serif_letter", "star", "yin_yang"};
-
-Scene scene_of_file(const std::string& name) {
-    std::ifstream in(std::filesystem::path(FETEXC_ART_DIR) / (name + ".svg"), std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::vector<Diagnostic> said;
-    auto scene = load_svg({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, {}, said);
-    EXPECT_TRUE(scene.ok()) << name;
-    return std::move(scene).value();
-}
-
-Scene shape(const char* name) { return scene_of_file(std::string("alternatives/") + name); }
+using test::art;
+using test::kShapes;
+using test::shape;
 
 /// Part of the points that a bilinear texture of the exact means, RGBA8, has nearer to the other of two colours.
 double wrong_of_bilinear(const Scene& scene, std::uint32_t side) {
