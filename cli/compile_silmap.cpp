@@ -73,13 +73,12 @@ SilmapCliOptions add_silmap_options(CLI::App& app, SilmapCommandOptions& options
                                        "or 16 (128 x 128)")
                             ->check(CLI::IsMember({8, 16}))
                             ->type_name("N");
-    CLI::Option* effort =
-        app.add_option(
-               "--effort", options.effort,
-               "Of a silhouette-map texture: quick, or thorough, which may take twenty times as long for a third "
-               "less wrong area; auto (default): quick where more than 4096 cells have edges")
-            ->check(CLI::IsMember({"auto", "quick", "thorough"}))
-            ->type_name("NAME");
+    CLI::Option* effort = app.add_option("--effort", options.effort,
+                                         "Of a silhouette-map texture: quick, or thorough, which may take ten to "
+                                         "thirty times as long for a third "
+                                         "less wrong area; auto (default): quick where more than 4096 cells have edges")
+                              ->check(CLI::IsMember({"auto", "quick", "thorough"}))
+                              ->type_name("NAME");
     CLI::Option* wrong =
         app.add_option(
                "--max-wrong", options.max_wrong_ppm,
