@@ -188,7 +188,7 @@ Scene scene_of_curves(std::initializer_list<const Curve*> curves) {
 
 Grid planar_space() {
     constexpr std::int64_t side = std::int64_t{1} << 43;
-    return {1, 1, 1, 1, side, side};
+    return {.width = 1, .height = 1, .px = side, .py = side};
 }
 
 ArcSet arcs_of(const Curve& c) {
