@@ -165,8 +165,8 @@ inline constexpr double kMeanTolerance = 1.0 / (16 * 255);
 /// is less than a fifth of a step.
 inline constexpr double kMeanSpan = 1.0 / 32;
 
-/// Lattice steps: cubics of a network become quadratics that stay this close to them, 2^-22 of the extent: as strokes do
-/// (kStrokeTolerance). At 256 texels that is two steps of the positions in signatures (2^-15 texel).
+/// Lattice steps: cubics of a network become quadratics that stay this close to them, 2^-22 of the extent: as strokes
+/// do (kStrokeTolerance). At 256 texels that is two steps of the positions in signatures (2^-15 texel).
 inline constexpr double kQuadraticTolerance = kStrokeTolerance;
 
 /// Texels: where textures of straight segments are asked for, curves become chords this close to them. A curve's point
@@ -215,14 +215,14 @@ inline constexpr double kPatchRidge = 0x1p-10;
 inline constexpr double kInvalidationSlack = 0x1p-9;
 
 /// Colour channel of an image: beyond 0 and 1 by less, nothing is said of clipping: half a step of 12 bits, the finest
-/// that cameras and film scans store in integers; what resampling in linear light, or their conversion to floats, leaves
-/// around 0 and 1. It shows in no sample of 8 bits.
+/// that cameras and film scans store in integers; what resampling in linear light, or their conversion to floats,
+/// leaves around 0 and 1. It shows in no sample of 8 bits.
 inline constexpr double kSampleOvershoot = 0x1p-13;
 
 /// Against a squared error of 1 a texel, where texels are no smaller than pixels: what a second difference of an
 /// image's corner values counts. (Smaller texels: times their number in a pixel, which makes it the same of the surface
-/// in pixels; the anchor below divided by it.) A detail of two texels' wavelength, that pixel centres don't see at the corners, is then left out; of four texels, 80 % are
-/// kept, and no detail comes out stronger than in the image.
+/// in pixels; the anchor below divided by it.) A detail of two texels' wavelength, that pixel centres don't see at the
+/// corners, is then left out; of four texels, 80 % are kept, and no detail comes out stronger than in the image.
 inline constexpr double kImageBending = 1.0 / 32;
 
 /// The same for a first difference: what makes values unique where bending leaves them open (a lone region).
@@ -233,7 +233,8 @@ inline constexpr double kImageStretching = 0x1p-14;
 inline constexpr double kImageAnchor = 0x1p-9;
 
 /// Colour channel: the fit ends when no corner would move by more in a Jacobi step (a thirtieth of a step of 8 bits;
-/// divided by the texels in a pixel, as such a step is), or after so many steps; long chains of holes, whose values hardly depend on each other, need some hundred.
+/// divided by the texels in a pixel, as such a step is), or after so many steps; long chains of holes, whose values
+/// hardly depend on each other, need some hundred.
 inline constexpr double kImageFitStep = 0x1p-13;
 /// The same where samples have 16 bits: a thirtieth of their step; of halves, of that below 1.
 inline constexpr double kImageFitStep16 = 0x1p-21, kImageFitStepHalf = 0x1p-16;
@@ -288,8 +289,8 @@ inline constexpr double kEqualErrorPrecision = 0.05;
 /// that a texture of 8 bits can have along an edge (half a step, 1/510 of the two texels over which values change).
 inline constexpr double kOutlineChord = 0x1p-12;
 
-/// Radians between two pieces of an outline: more is a corner. Chords of a round edge turn by less: within kOutlineChord
-/// a circle of half a texel, the roundest that a texture can hold, takes chords of 0.13.
+/// Radians between two pieces of an outline: more is a corner. Chords of a round edge turn by less: within
+/// kOutlineChord a circle of half a texel, the roundest that a texture can hold, takes chords of 0.13.
 inline constexpr double kCornerTurn = 0.15;
 
 /// Of an outline that comes from pixels, whose single pieces say little: radians between its directions over so many
@@ -313,8 +314,8 @@ inline constexpr double kSeedSearch = 2;
 inline constexpr double kFitTrustRadius = 100;
 inline constexpr double kFitTolerance = 1e-4;
 
-/// Ceres' damping of a value counts at least so much as its own weight; a value that the outline crosses beside has some
-/// units of it. Of 0.1 to 0.5 and radii of 3 to 1000 what left the least wrong area on six shapes.
+/// Ceres' damping of a value counts at least so much as its own weight; a value that the outline crosses beside has
+/// some units of it. Of 0.1 to 0.5 and radii of 3 to 1000 what left the least wrong area on six shapes.
 inline constexpr double kFitLeastDiagonal = 0.5;
 
 /// Texels: distances of contours up to this count by their squares, larger ones by themselves (Huber's loss).
@@ -326,8 +327,8 @@ inline constexpr double kFitLeastSlope = 0.1;
 /// Of a crossing on a line with several in one cell, where one value can't be right for all.
 inline constexpr double kFitCrowdedWeight = 0.3;
 
-/// The paper's system: part of a position's weight that is left halfway between level and upright, and the weight of the
-/// gradient's length, so that the values have a scale.
+/// The paper's system: part of a position's weight that is left halfway between level and upright, and the weight of
+/// the gradient's length, so that the values have a scale.
 inline constexpr double kFitPositionFloor = 0.05;
 inline constexpr double kFitSteepness = 0.1;
 inline constexpr int kFitPaperSteps = 2;
@@ -340,16 +341,16 @@ inline constexpr double kWorthAByte = 1e-7;
 inline constexpr double kWorthAPart = 1.0 / 16;
 
 /// Parts of a pixel: nine pixels that a straight edge covers otherwise than they say, by more in the root mean square,
-/// hold a corner or several edges. A corner of a right angle in the middle misfits by 0.1 or more; roundings of 8 bits by
-/// 0.002, an edge round with a radius of five pixels by 0.02.
+/// hold a corner or several edges. A corner of a right angle in the middle misfits by 0.1 or more; roundings of 8 bits
+/// by 0.002, an edge round with a radius of five pixels by 0.02.
 inline constexpr double kEdgeLineMisfit = 0.04;
 
-/// Radians and pixels over which an edge's coverages are differentiated, and the part of its diagonal product below which
-/// a normal matrix says nothing. Decides nothing else: a step that doesn't fit better isn't taken.
+/// Radians and pixels over which an edge's coverages are differentiated, and the part of its diagonal product below
+/// which a normal matrix says nothing. Decides nothing else: a step that doesn't fit better isn't taken.
 inline constexpr double kEdgeLineDifference = 0x1p-20;
 
-/// Steps of a silhouette map's points: edges are cut into chords that miss them by at most this. Rounding a point leaves
-/// a quarter of a step on average, eight times as much.
+/// Steps of a silhouette map's points: edges are cut into chords that miss them by at most this. Rounding a point
+/// leaves a quarter of a step on average, eight times as much.
 inline constexpr double kSilmapChord = 1.0 / 32;
 
 /// Square texels: what a move of a silhouette map's point must win. Far above roundings (2^-45 of a cell), and 2^-16 of
@@ -362,5 +363,43 @@ inline constexpr double kSilmapCrowded = 1.0 / 16;
 
 /// Square texels: smaller parts of the picture may get lost without a word.
 inline constexpr double kSilmapLostPart = 1.0 / 16;
+
+/// Square cells, of silhouette maps: settling looks at cells around which more is wrong, again where it won so much,
+/// and at those around where it won more still. What these and the next three cost and win was measured on the tiger
+/// (compiler/silmap/README.md); nothing of them decides what is reported.
+inline constexpr double kSilmapSettle = 0.1, kSilmapSettleAgain = 0.01, kSilmapSettleAround = 0.03;
+/// Part of all wrong area: a cell that has more, with its neighbours, has all its places tried, so that what one move
+/// can still win stays well below a hundredth of the whole.
+inline constexpr double kSilmapHeavy = 1.0 / 256;
+/// Square texels: wrong around a texel before it may take another region's colour, twice what a crowded cell may have;
+/// what it must win; and the area of a region in a cell for it to be tried.
+inline constexpr double kSilmapLend = 0.125, kSilmapLent = 1.0 / 64, kSilmapLendPart = 1.0 / 32;
+
+/// Part of the canvas on the wrong side of an edge that sizes of their own choice may have, where none is asked for:
+/// one pixel in a thousand.
+inline constexpr double kSilmapChosenError = 1e-3, kPinchmapChosenError = 1e-3;
+
+/// Clusters of a pinchmap: a corner farther than this on the wrong side counts no more, for gamma moves a discontinuity
+/// by less than a cluster, and it lies half of one from its clusters' middles.
+inline constexpr double kPinchmapFarWrong = 1.5;
+/// Square clusters: what a cross costs that the drawing hasn't, for it blurs a cluster of two colours, half of it
+/// wrongly; what a move of the zones must win, less than shows; and what must be unmendable for another fit to pay.
+inline constexpr double kPinchmapCross = 0.5, kPinchmapWorthAMove = 0.1, kPinchmapMuch = 1;
+/// Square clusters of wrong area around an active texel: up to here it stays sharp, from there on its strength is 0, as
+/// a cross's is.
+inline constexpr double kPinchmapSharpTo = 0.3, kPinchmapSoftFrom = kPinchmapCross;
+/// k − gamma on the wrong side: more is no discontinuity beside its place (a zone's side is 1 from it) but a part that
+/// the map hasn't.
+inline constexpr double kPinchmapFarInside = 0.75;
+
+/// Weights in the fit of a pinchmap's signal, of the mean weight of a sample. Neighbours on one side are drawn together
+/// by so much: a sample that points tell anything about moves by a fraction of a step of 16 bits, 2^-16. A sample with
+/// less isn't told anything.
+inline constexpr double kSignalTogether = 1e-6, kSignalUnseen = 1e-6;
+/// Colours times the mean weight: the largest residual at which the fit ends, a 150th of a step of 16 bits.
+inline constexpr double kSignalResidual = 1e-7;
+/// Of a pixel that mixes two sides, where no other tells a sample's colour: a hundred times what draws neighbours
+/// together, a ten thousandth of a pixel that doesn't mix.
+inline constexpr double kSignalMixed = 1e-4;
 
 } // namespace fetexc::budget

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/pinchmap/lost_edges.h"
+#include "compiler/error_budget.h"
 
 #include <algorithm>
 
 namespace fetexc {
-namespace {
-
-constexpr double kSharpTo = 0.3, kSoftFrom = 0.5; ///< square clusters
-
-} // namespace
-
 LostEdges blur_lost_edges(const GammaProblem& problem, std::vector<fetex::PinchmapTexel>& map) {
     const std::vector<double> wrong = wrong_around(problem, map);
     const std::size_t columns = std::size_t{problem.width} + 1;
     LostEdges out;
     for (std::size_t k = 0; k < map.size(); ++k) {
-        if (map[k].k != 0 || !(wrong[k] > kSharpTo)) continue;
-        const double strength = std::max((kSoftFrom - wrong[k]) / (kSoftFrom - kSharpTo), 0.0);
+        if (map[k].k != 0 || !(wrong[k] > budget::kPinchmapSharpTo)) continue;
+        const double strength = std::max(
+            (budget::kPinchmapSoftFrom - wrong[k]) / (budget::kPinchmapSoftFrom - budget::kPinchmapSharpTo), 0.0);
         map[k].du *= strength, map[k].dv *= strength, ++out.texels;
         if (!(wrong[k] > out.worst)) continue;
         out.worst = wrong[k];

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/pinchmap/pinch_frame.h"
 #include "compiler/pinchmap/zone_truth.h"
 
@@ -11,8 +12,6 @@ namespace {
 
 /// Clusters: a discontinuity without zones says something of corners so far from the outline.
 constexpr double kToldByGamma = 1.5;
-/// Square clusters: less that is unmendable isn't worth another fit.
-constexpr double kMuch = 1;
 
 MapFit fit_zones(const Solver& solver, const GammaProblem& problem, const ZoneTruth& truth) {
     MapFit out;
@@ -29,7 +28,7 @@ MapFit fit_zones(const Solver& solver, const GammaProblem& problem, const ZoneTr
 MapFit fit_map(const Solver& solver, const GammaProblem& problem) {
     ZoneTruth truth = zone_truth(problem.silhouette, problem.width, problem.height);
     MapFit best = fit_zones(solver, problem, truth);
-    if (best.unmendable < kMuch) return best;
+    if (best.unmendable < budget::kPinchmapMuch) return best;
     // Every texel near the outline active: any γ there can be anything.
     std::vector<fetex::PinchmapTexel> open(truth.distances.size());
     for (std::size_t k = 0; k < open.size(); ++k) {

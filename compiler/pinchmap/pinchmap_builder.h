@@ -61,15 +61,12 @@ Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapO
 /// no
 ///   limit). Error kPinchmapErrorUnmet: none does.
 /// - else the largest size of at most max_bytes on the GPU. Error kPinchmapBudget: none fits.
-/// - neither: up to kPinchmapChosenError of wrong area, or the best that a size of up to 1024 clusters does.
+/// - neither: up to budget::kPinchmapChosenError of wrong area, or the best that a size of up to 1024 clusters does.
 Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const Scene& scene, const PinchmapOptions& options,
                                                       std::uint64_t max_bytes, double max_wrong_area,
                                                       const ProgressSink& progress = {});
 Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const RasterImage& image, const PinchmapOptions& options,
                                                       std::uint64_t max_bytes, double max_wrong_area,
                                                       const ProgressSink& progress = {});
-
-/// Part of the drawing: see above.
-inline constexpr double kPinchmapChosenError = 1e-3;
 
 } // namespace fetexc

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
 #include "formats/fbt_mip.h"
 #include "formats/validate.h"
 
@@ -113,7 +114,7 @@ Result<PinchmapBuild> choose_pinchmap_size(const PinchmapOptions& options, const
     const SizeChoice choice(options, extent, limits, build);
     if (limits.max_wrong_area > 0) return choice.smallest(limits.max_wrong_area, choice.most(), true);
     if (limits.max_bytes > 0) return choice.largest();
-    return choice.smallest(kPinchmapChosenError, std::min(kMostUnasked, choice.most()), false);
+    return choice.smallest(budget::kPinchmapChosenError, std::min(kMostUnasked, choice.most()), false);
 }
 
 } // namespace fetexc

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/parallel.h"
 
 namespace fetexc {
 namespace {
 
-/// Of the mean weight of a sample: how strongly neighbours on one side are drawn together. A sample that points tell
-/// anything about moves by a fraction of a step of 16 bits.
-constexpr double kTogether = 1e-6;
-/// Of the mean weight: less says nothing.
-constexpr double kUnseen = 1e-6;
-/// Conjugate gradients end where no residual is more, in colours times the mean weight, or after so many rounds.
-constexpr double kResidual = 1e-7;
+/// Of conjugate gradients, at most.
 constexpr int kRounds = 400;
 constexpr int kSpreads = 64;
 
@@ -75,7 +70,7 @@ class SampleSolver {
         mean_ = sum / static_cast<double>(rows_.size());
         seen_.resize(rows_.size());
         for (std::size_t k = 0; k < rows_.size(); ++k)
-            seen_[k] = rows_[k].weights[0] > kUnseen * mean_ ? 1 : 0;
+            seen_[k] = rows_[k].weights[0] > budget::kSignalUnseen * mean_ ? 1 : 0;
         sides_.resize(rows_.size());
         for (std::uint32_t b = 0; b < height_; ++b) {
             for (std::uint32_t a = 0; a < width_; ++a)
@@ -84,7 +79,7 @@ class SampleSolver {
         first_guess();
         each_pair([&](std::size_t k, std::size_t other, std::size_t which) {
             if (sides_[k] != sides_[other]) return;
-            const double together = kTogether * mean_;
+            const double together = budget::kSignalTogether * mean_;
             rows_[k].weights[0] += together, rows_[other].weights[0] += together;
             rows_[k].weights[which] -= together;
         });
@@ -184,7 +179,7 @@ class SampleSolver {
         for (std::size_t k = 0; k < n; ++k)
             r[k] = rows_[k].colors[c] - at_first[k];
         const auto scaled = [&](std::size_t k) {
-            return r[k] / std::max(rows_[k].weights[0], kUnseen * kTogether * mean_);
+            return r[k] / std::max(rows_[k].weights[0], budget::kSignalUnseen * budget::kSignalTogether * mean_);
         };
         double dot = 0;
         for (std::size_t k = 0; k < n; ++k)
@@ -194,7 +189,7 @@ class SampleSolver {
             double largest = 0;
             for (const double v : r)
                 largest = std::max(largest, std::abs(v));
-            if (largest <= kResidual * mean_) break;
+            if (largest <= budget::kSignalResidual * mean_) break;
             const std::vector<double> ap = times(p);
             double pap = 0;
             for (std::size_t k = 0; k < n; ++k)

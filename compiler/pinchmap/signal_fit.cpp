@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/bilevel/scan_lines.h"
+#include "compiler/error_budget.h"
 #include "compiler/parallel.h"
 #include "compiler/pinchmap/sample_equations.h"
 #include "formats/fbt_samples.h"
@@ -17,11 +18,6 @@ namespace {
 
 /// Along each side of a sample, and at least of a cluster.
 constexpr std::uint32_t kPointsOfSample = 8, kLeastPoints = 16;
-/// k − γ on the wrong side: more is no discontinuity that runs a little beside its place but a part that the map
-/// hasn't.
-constexpr double kFarInside = 0.75;
-/// Of a pixel that mixes two sides, where no other tells a sample's colour.
-constexpr double kMixedWeight = 1e-4;
 /// Cluster rows at a time, each with its own sums.
 constexpr std::uint32_t kRowsAtOnce = 32;
 
@@ -102,20 +98,20 @@ class SignalFitter {
         bool blurred = false;
         if (active_[std::size_t{j} * t_.width + i] != 0) {
             place = fetex::pinchmap_place_local(t_, i, j, fx, fy);
-            blurred = std::max(std::abs(place.direction.x), std::abs(place.direction.y)) < 1 - kMixedWeight;
+            blurred = std::max(std::abs(place.direction.x), std::abs(place.direction.y)) < 1 - budget::kSignalMixed;
         } else {
             place.k = fetex::pinchmap_texel(t_, i, j).k;
         }
         const double side = place.k - place.gamma;
         const bool right = (side > 0) == above;
-        if (!right && std::abs(side) >= kFarInside) {
+        if (!right && std::abs(side) >= budget::kPinchmapFarInside) {
             if (sums.lost++ == 0) sums.first_x = x, sums.first_y = row;
         } else if (!right && !blurred) {
             return;
         }
         const double scale = std::ldexp(1.0, static_cast<int>(t_.scale));
         sums.equations.add((place.i + place.x) * scale, (place.j + place.y) * scale, channels_of(point.color),
-                           point.clean || blurred ? 1 : kMixedWeight);
+                           point.clean || blurred ? 1 : budget::kSignalMixed);
     }
 
     const fetex::PinchmapTexture& t_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/pinchmap/zone_mask.h"
+#include "compiler/error_budget.h"
 
 #include <array>
 #include <compare>
@@ -48,13 +49,6 @@ unsigned pattern_around(const ZoneMask& mask, std::int64_t i, std::int64_t j) {
     return pattern;
 }
 
-/// A corner inside a zone that is farther on the wrong side than this counts no more, clusters.
-constexpr double kFarWrong = 1.5;
-/// What a cross is worth that isn't there: it blurs a cluster of two colours.
-constexpr double kCrossError = 0.5;
-/// Square clusters: less is not worth a move.
-constexpr double kWorthAMove = 0.1;
-
 double cluster_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
     const std::size_t at = std::size_t{j} * mask.width + i;
     const std::uint8_t side = mask.above[at];
@@ -67,8 +61,8 @@ double cluster_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t
 double corner_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
     const double above = truth.distances[std::size_t{j} * (mask.width + 1) + i];
     const CornerSides s = sides_around(mask, i, j);
-    if (s.cross()) return kCrossError;
-    return s.active() ? 0 : std::clamp(s.nw != 0 ? -above : above, 0.0, kFarWrong);
+    if (s.cross()) return budget::kPinchmapCross;
+    return s.active() ? 0 : std::clamp(s.nw != 0 ? -above : above, 0.0, budget::kPinchmapFarWrong);
 }
 
 /// Clusters x … x + width − 1, y … y + height − 1, to one side.
@@ -91,7 +85,8 @@ class Enforcer {
             for (std::uint32_t i = 0; i < mask_.width; ++i) {
                 const bool valid = is_valid_cluster(mask_, i, j);
                 if (!valid) broken_.emplace(j, i);
-                if (!valid || error_around({i, j, 1, 1}) >= kWorthAMove) list_around({i, j, 1, 1}, kNear);
+                if (!valid || error_around({i, j, 1, 1}) >= budget::kPinchmapWorthAMove)
+                    list_around({i, j, 1, 1}, kNear);
             }
         }
         MaskMoves out;
@@ -159,7 +154,7 @@ class Enforcer {
         if (!changes) return std::nullopt;
         const int now = invalid_around(m);
         const double error = error_around(m);
-        if (now == 0 && error < kWorthAMove) return std::nullopt;
+        if (now == 0 && error < budget::kPinchmapWorthAMove) return std::nullopt;
         for (const auto& [at, side] : before.first(count))
             mask_.above[at] = m.above;
         const int then = invalid_around(m);
@@ -167,7 +162,7 @@ class Enforcer {
         for (const auto& [at, side] : before.first(count))
             mask_.above[at] = side;
         if (then < now) return more / (now - then);
-        return then == now && more < -kWorthAMove ? std::optional(more) : std::nullopt;
+        return then == now && more < -budget::kPinchmapWorthAMove ? std::optional(more) : std::nullopt;
     }
 
     void list_around(const Move& changed, std::int64_t reach) {

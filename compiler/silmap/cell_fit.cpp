@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "compiler/error_budget.h"
 #include "compiler/silmap/point_moves.h"
 
 namespace fetexc {
@@ -14,12 +15,7 @@ namespace {
 constexpr std::uint32_t kClasses = 5;
 std::uint32_t class_of(const SilmapCellData& c) { return (c.i + 2 * c.j) % kClasses; }
 
-/// Part of all wrong area: a cell that has more, with its neighbours, is looked at closely.
-constexpr double kHeavy = 1.0 / 256;
 constexpr int kSettleRounds = 2, kMostRounds = 32, kHeavyRounds = 4;
-
-/// Square cells: won by settling a point, this makes it worth to settle those around again.
-constexpr double kSpreads = 0.03;
 
 /// Steps of a walk's strides, from the first on.
 std::span<const std::int64_t> strides_of(fetex::SilmapCellFormat format) {
@@ -44,7 +40,7 @@ class PointFit {
     FitCounts run(bool thorough) {
         const auto strides = strides_of(format_);
         const auto settle = [&](PointMoves& m, std::uint32_t k) {
-            return m.settle(k, settling_strides_of(format_)) - kSpreads;
+            return m.settle(k, settling_strides_of(format_)) - budget::kSilmapSettleAround;
         };
         for (int round = 0; round < kSettleRounds && sweep(settle); ++round)
             ;
@@ -90,7 +86,7 @@ class PointFit {
 
     /// Of the cells that matter in the whole, all positions. Few of a large picture, many of a small one.
     bool search_heavy() {
-        const double bar = kHeavy * wrong_area_of(cells_);
+        const double bar = budget::kSilmapHeavy * wrong_area_of(cells_);
         PointMoves searcher(cells_, format_);
         bool moved = false;
         for (const std::vector<std::uint32_t>& members : classes_) {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include "compiler/error_budget.h"
 #include "compiler/silmap/point_moves.h"
 
 namespace fetexc {
 namespace {
 
-/// Square texels: of wrong area around a texel that it is worth to try for, and that must be won.
-constexpr double kWorthTrying = 0.125, kWorthLending = 1.0 / 64;
 constexpr int kRounds = 3;
 constexpr std::size_t kTangle = 96; ///< slabs in the cells around a texel
 
@@ -89,7 +88,7 @@ class Lender {
     }
 
     bool try_texel(std::uint32_t i, std::uint32_t j) {
-        if (!gather(i, j) || wrong_in(ring_) < kWorthTrying || is_tangle()) return false;
+        if (!gather(i, j) || wrong_in(ring_) < budget::kSilmapLend || is_tangle()) return false;
         const std::size_t texel = std::size_t{j} * cells_.width + i;
         const ResultId had = cells_.results[texel];
         candidates_.clear();
@@ -107,12 +106,12 @@ class Lender {
 
     /// What no texel here has.
     void add_thin_candidates(ResultId had) {
-        constexpr double least = 1.0 / 32; // square cells
         for (const std::uint32_t k : ring_) {
             const CellTruth truth = cells_.truth_of(cells_.cells[k]);
             for (const TruthSlab& slab : truth.slabs) {
                 const auto add = [&](ResultId r) {
-                    if (r != had && std::ranges::find(candidates_, r) == candidates_.end() && area_of(truth, r) > least)
+                    if (r != had && std::ranges::find(candidates_, r) == candidates_.end() &&
+                        area_of(truth, r) > budget::kSilmapLendPart)
                         candidates_.push_back(r);
                 };
                 add(slab.left);
@@ -139,7 +138,7 @@ class Lender {
                     moves_.walk(k, 1);
             }
         }
-        if (wrong_in(around_) < before - kWorthLending) {
+        if (wrong_in(around_) < before - budget::kSilmapLent) {
             had_.emplace(static_cast<std::uint32_t>(texel), had); // the first time: its own
             return true;
         }

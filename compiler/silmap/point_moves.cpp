@@ -180,11 +180,10 @@ double PointMoves::settle_once(SilmapCellData& c, std::span<const std::int64_t> 
 }
 
 double PointMoves::settle(std::uint32_t cell, std::span<const std::int64_t> strides) {
-    constexpr double worth_settling = 0.1, worth_another = 0.01; // square cells
     constexpr int most = 3;
-    if (wrong_around(cell) < worth_settling) return 0;
-    double won = 0, last = worth_another;
-    for (int k = 0; k < most && last >= worth_another; ++k)
+    if (wrong_around(cell) < budget::kSilmapSettle) return 0;
+    double won = 0, last = budget::kSilmapSettleAgain;
+    for (int k = 0; k < most && last >= budget::kSilmapSettleAgain; ++k)
         won += last = settle_once(cells_.cells[cell], strides);
     return won;
 }

@@ -69,7 +69,7 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
 /// - max_wrong_area > 0 (part of the canvas): the smallest size, to 1/16, that has no more wrong area and fits in
 ///   max_bytes (0: no limit). Error kSilmapErrorUnmet: none does.
 /// - else: the largest size of at most max_bytes on the GPU. Error kSilmapBudget: none fits.
-/// - neither: up to kSilmapChosenError of wrong area, or the best that a size of up to 1024 texels does.
+/// - neither: up to budget::kSilmapChosenError of wrong area, or the best that a size of up to 1024 texels does.
 /// Errors of compile_silmap as well.
 Result<SilmapBuild> compile_silmap_at_chosen_size(const Scene& scene, const SilmapOptions& options,
                                                   std::uint64_t max_bytes, double max_wrong_area,
@@ -79,8 +79,5 @@ Result<SilmapBuild> compile_silmap_at_chosen_size(const Scene& scene, const Silm
 Result<SilmapBuild> compile_silmap_at_chosen_size(const FeaturedImage& picture, const SilmapOptions& options,
                                                   std::uint64_t max_bytes, double max_wrong_area,
                                                   const ProgressSink& progress = {});
-
-/// Part of the canvas: see compile_silmap_at_chosen_size.
-inline constexpr double kSilmapChosenError = 1e-3;
 
 } // namespace fetexc

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
 #include "compiler/silmap/silmap_builder.h"
 #include "formats/fbt_mip.h"
 
@@ -136,7 +137,7 @@ class SizeChoice {
 Result<SilmapBuild> choose(SizeChoice& choice, std::uint64_t max_bytes, double max_wrong_area) {
     if (max_wrong_area > 0) return choice.smallest(max_wrong_area, kMost, true);
     if (max_bytes != 0) return choice.largest();
-    return choice.smallest(kSilmapChosenError, kMostUnasked, false);
+    return choice.smallest(budget::kSilmapChosenError, kMostUnasked, false);
 }
 
 } // namespace

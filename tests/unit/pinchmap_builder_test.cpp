@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
 #include "compiler/measure/alternatives.h"
 #include "compiler/measure/errors.h"
 #include "compiler/pinchmap/pinchmap_builder.h"
@@ -219,7 +220,7 @@ TEST(PinchmapBuilder, sizesOfItsOwnChoice) {
     EXPECT_LE(good.value().stats.wrong_area, 4e-4);
     EXPECT_LE(good.value().texture.width, 70u);
     const auto chosen = compile_pinchmap_at_chosen_size(scene, options_of(0), 0, 0);
-    EXPECT_LE(chosen.value().stats.wrong_area, kPinchmapChosenError);
+    EXPECT_LE(chosen.value().stats.wrong_area, budget::kPinchmapChosenError);
     EXPECT_EQ(compile_pinchmap_at_chosen_size(scene, options_of(0), 10, 0).error().code, diag::kPinchmapBudget);
     EXPECT_EQ(compile_pinchmap_at_chosen_size(scene, options_of(0), 5000, 1e-5).error().code,
               diag::kPinchmapErrorUnmet);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
 #include "compiler/silmap/silmap_builder.h"
 #include "formats/fbt_samples.h"
 #include "formats/validate.h"
@@ -237,7 +238,7 @@ TEST(SilmapSize, isTheSmallestThatIsGoodEnough) {
     EXPECT_EQ(none.error().code, diag::kSilmapErrorUnmet);
     const auto unasked = compile_silmap_at_chosen_size(disc(), {}, 0, 0);
     ASSERT_TRUE(unasked.ok());
-    EXPECT_LE(unasked.value().stats.wrong_area, kSilmapChosenError);
+    EXPECT_LE(unasked.value().stats.wrong_area, budget::kSilmapChosenError);
 }
 
 } // namespace
