@@ -34,16 +34,19 @@ char letter(FeatureEdge e) { return "NESW"[feature_edge_index(e)]; }
 
 std::vector<FeatureConfiguration> feature_configurations() {
     std::vector<FeatureConfiguration> all;
-    for (std::uint32_t c = 0; c <= 0xffff; ++c)
-        if (feature_valid(static_cast<FeatureConfiguration>(c))) all.push_back(static_cast<FeatureConfiguration>(c));
+    for (std::uint32_t word = 0; word <= 0xffff; ++word) {
+        const auto c = static_cast<FeatureConfiguration>(word);
+        if (feature_valid(c) && feature_edges(c) == c) all.push_back(c);
+    }
     return all;
 }
 
 std::string feature_name(FeatureConfiguration c) {
     std::string name;
-    for (const FeatureSegment s : feature_unpack(c)) {
+    const FeatureSegmentList list = feature_unpack(c);
+    for (std::uint32_t k = 0; k < list.count; ++k) {
         if (!name.empty()) name += ' ';
-        name += {letter(s.first), '-', letter(s.second)};
+        name += {letter(list.segment[k].first), list.straight[k] ? '|' : '-', letter(list.segment[k].second)};
     }
     return name.empty() ? "empty" : name;
 }
@@ -73,7 +76,8 @@ FeatureSegment feature_turned(std::uint32_t symmetry, FeatureSegment s) {
 FeatureConfiguration feature_turned(std::uint32_t symmetry, FeatureConfiguration c) {
     const FeatureSegmentList list = feature_unpack(c);
     if (list.count == 0) return 0;
-    return feature_pack(feature_turned(symmetry, list.segment[0]), feature_turned(symmetry, list.segment[1]));
+    return feature_pack(feature_turned(symmetry, list.segment[0]), feature_turned(symmetry, list.segment[1]),
+                        list.straight[0], list.straight[1]);
 }
 
 FeatureSignature feature_turned(std::uint32_t symmetry, const FeatureSignature& s) {

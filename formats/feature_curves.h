@@ -51,13 +51,21 @@ inline constexpr auto kFeatureSegments = feature_segments();
 
 /// The paper's quadruple (l1, m1), (l2, m2), edges from 1 to 4, in four bits each, l1 the lowest: 0 without a segment;
 /// with one segment both pairs are its. Pairs have l < m, and the first is not the greater one, so there is one word
-/// for each configuration.
+/// for each configuration. Edges need three bits; the fourth of l1 and of l2 says that the first, the second segment is
+/// straight (one segment: both or none). Linear textures, whose segments all are, have neither bit.
 using FeatureConfiguration = std::uint16_t;
+inline constexpr FeatureConfiguration kFeatureStraightFirst = 0x0008, kFeatureStraightSecond = 0x0800;
+
+/// Without the bits that tell straight segments: one of 22 words.
+constexpr FeatureConfiguration feature_edges(FeatureConfiguration c) {
+    return static_cast<FeatureConfiguration>(c & ~(kFeatureStraightFirst | kFeatureStraightSecond));
+}
 
 /// A configuration's segments, distinct and in increasing order.
 struct FeatureSegmentList {
     std::array<FeatureSegment, 2> segment{};
     std::uint32_t count = 0;
+    std::array<bool, 2> straight{}; ///< what the bits say
     [[nodiscard]] constexpr auto begin() const { return segment.begin(); }
     [[nodiscard]] constexpr auto end() const { return segment.begin() + count; }
 };
@@ -66,39 +74,49 @@ struct FeatureSegmentList {
 /// each has both ends on the boundary; and the word is the one for its segments.
 constexpr bool feature_valid(FeatureConfiguration c) {
     if (c == 0) return true;
-    const unsigned l1 = c & 15u, m1 = c >> 4 & 15u, l2 = c >> 8 & 15u, m2 = c >> 12 & 15u;
+    const unsigned edges = feature_edges(c);
+    const unsigned l1 = edges & 15u, m1 = edges >> 4 & 15u, l2 = edges >> 8 & 15u, m2 = edges >> 12 & 15u;
     const auto pair = [](unsigned l, unsigned m) { return l >= 1 && l < m && m <= 4; };
-    return pair(l1, m1) && pair(l2, m2) && (l1 < l2 || (l1 == l2 && m1 <= m2));
+    if (!pair(l1, m1) || !pair(l2, m2)) return false;
+    if (l1 == l2 && m1 == m2) return ((c & kFeatureStraightFirst) != 0) == ((c & kFeatureStraightSecond) != 0);
+    return l1 < l2 || (l1 == l2 && m1 < m2);
 }
 
 /// Precondition: feature_valid.
 constexpr FeatureSegmentList feature_unpack(FeatureConfiguration c) {
     if (c == 0) return {};
     const auto pair = [&](unsigned shift) -> FeatureSegment {
-        return {static_cast<FeatureEdge>(c >> shift & 15u), static_cast<FeatureEdge>(c >> (shift + 4) & 15u)};
+        return {static_cast<FeatureEdge>(c >> shift & 7u), static_cast<FeatureEdge>(c >> (shift + 4) & 7u)};
     };
-    return {{pair(0), pair(8)}, pair(0) == pair(8) ? 1u : 2u};
+    return {{pair(0), pair(8)},
+            pair(0) == pair(8) ? 1u : 2u,
+            {(c & kFeatureStraightFirst) != 0, (c & kFeatureStraightSecond) != 0}};
 }
 
-/// Of one segment, or of two; equal ones are one.
-constexpr FeatureConfiguration feature_pack(FeatureSegment a, FeatureSegment b) {
-    const auto pair = [](FeatureSegment s) {
-        return static_cast<unsigned>(s.first) | static_cast<unsigned>(s.second) << 4;
+/// Of one segment, or of two; equal ones are one, and both or none are said to be straight. Without the last arguments:
+/// as linear textures have it.
+constexpr FeatureConfiguration feature_pack(FeatureSegment a, FeatureSegment b, bool a_straight = false,
+                                            bool b_straight = false) {
+    const auto pair = [](FeatureSegment s, bool straight) {
+        return static_cast<unsigned>(s.first) | static_cast<unsigned>(s.second) << 4 |
+               (straight ? unsigned{kFeatureStraightFirst} : 0u);
     };
-    return static_cast<FeatureConfiguration>(b < a ? pair(b) | pair(a) << 8 : pair(a) | pair(b) << 8);
+    const unsigned first = pair(a, a_straight), second = pair(b, b_straight);
+    return static_cast<FeatureConfiguration>(b < a ? second | first << 8 : first | second << 8);
 }
 
-/// How many there are: found by looking at every word.
+/// How many there are of segments, straight or not: found by looking at every word.
 constexpr std::uint32_t feature_configuration_count() {
     std::uint32_t n = 0;
     for (std::uint32_t c = 0; c <= 0xffff; ++c)
-        n += feature_valid(static_cast<FeatureConfiguration>(c));
+        n += feature_valid(static_cast<FeatureConfiguration>(c)) &&
+             feature_edges(static_cast<FeatureConfiguration>(c)) == c;
     return n;
 }
-/// All of them in increasing order, the empty one first.
+/// All of them in increasing order, the empty one first, no segment said to be straight.
 std::vector<FeatureConfiguration> feature_configurations();
 
-/// "empty", "N-E", "N-S E-W". Precondition: feature_valid.
+/// "empty", "N-E", "N-S E-W"; with "|" for "-" if the segment is said to be straight. Precondition: feature_valid.
 std::string feature_name(FeatureConfiguration c);
 
 /// A symmetry of the texel: bit 0 mirrors x, bit 1 mirrors y, bit 2 exchanges x and y afterwards.

@@ -82,9 +82,10 @@ enum class FindingCode : std::uint16_t {
 
     FeatureDimensions = 5001, ///< width, height 1 … 16384; lengths of the arrays
     FeatureFormat = 5002,     ///< unknown number format; limit of distances
-    FeatureBadTexel = 5003,   ///< not a valid configuration
+    FeatureBadTexel = 5003,   ///< not a valid configuration; a straight bit in a linear texture
     FeatureNumber = 5004,     ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit
     FeatureUnusedEdge = 5005, ///< an edge that no segment ends on hasn't the default position and angle
+    FeatureNoCurve = 5006,    ///< a segment that isn't straight, and whose tangents don't meet in the texel
 };
 
 /// One finding. offset: bytes from the start of the file, or, from validate_fbt and the like, of the part that the

@@ -8,6 +8,7 @@
 
 #include "formats/bytes.h"
 #include "formats/fbt_samples.h"
+#include "formats/feature_curve_geometry.h"
 #include "formats/validate.h"
 
 namespace fetex {
@@ -54,7 +55,9 @@ class Check {
         });
         numbers(t_.distances, "distances", [](std::uint64_t) { return FeatureQuantity::Distance; });
         configurations();
-        if (findings_.empty()) unused_edges();
+        if (!findings_.empty()) return std::move(findings_);
+        unused_edges();
+        if (!t_.linear) curves();
         return std::move(findings_);
     }
 
@@ -75,8 +78,20 @@ class Check {
 
     void configurations() {
         for (std::size_t k = 0; k < t_.configurations.size(); ++k)
-            if (!feature_valid(t_.configurations[k]))
+            if (const FeatureConfiguration c = t_.configurations[k];
+                !feature_valid(c) || (t_.linear && feature_edges(c) != c))
                 add(FindingCode::FeatureBadTexel, 2 * std::uint64_t{k}, "configurations: not a valid one");
+    }
+
+    void curves() {
+        for (std::size_t k = 0; k < t_.configurations.size(); ++k) {
+            const FeatureSegmentList list = feature_unpack(t_.configurations[k]);
+            const auto j = static_cast<std::uint32_t>(k / t_.width), i = static_cast<std::uint32_t>(k % t_.width);
+            for (std::uint32_t n = 0; n < list.count; ++n)
+                if (!list.straight[n] && !feature_curve(feature_signature(t_, i, j), list.segment[n], false))
+                    add(FindingCode::FeatureNoCurve, 2 * std::uint64_t{k},
+                        "configurations: a segment whose tangents don't meet in the texel isn't straight");
+        }
     }
 
     /// Some segment of the texel, if it exists, ends on its edge.

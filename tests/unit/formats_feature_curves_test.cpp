@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "formats/feature_curve_geometry.h"
 #include "formats/feature_curves.h"
 #include "formats/validate.h"
 #include "tests/support/random.h"
@@ -45,13 +46,16 @@ TEST(FeatureConfigurations, areTheSetsOfUpToTwoSegments) {
 }
 
 TEST(FeatureConfigurations, haveOneWordEach) {
+    std::size_t words = 0;
     for (std::uint32_t w = 0; w <= 0xffff; ++w) {
         const auto c = static_cast<FeatureConfiguration>(w);
         if (!feature_valid(c) || c == 0) continue;
         const FeatureSegmentList list = feature_unpack(c);
-        EXPECT_EQ(feature_pack(list.segment[0], list.segment[1]), c);
-        EXPECT_EQ(feature_pack(list.segment[1], list.segment[0]), c);
+        EXPECT_EQ(feature_pack(list.segment[0], list.segment[1], list.straight[0], list.straight[1]), c);
+        EXPECT_EQ(feature_pack(list.segment[1], list.segment[0], list.straight[1], list.straight[0]), c);
+        ++words;
     }
+    EXPECT_EQ(words, 6u * 2 + 15 * 4);                             // straight or not
     EXPECT_EQ(feature_pack({North, East}, {North, East}), 0x2121); // the paper's two copies
     EXPECT_EQ(feature_pack({East, West}, {North, South}), 0x4231);
 }
@@ -63,6 +67,9 @@ TEST(FeatureConfigurations, refusesWhatBreaksARule) {
     EXPECT_FALSE(feature_valid(0x3142)); // greater pair first
     EXPECT_FALSE(feature_valid(0x5121)); // there is no edge 5
     EXPECT_FALSE(feature_valid(0x2101)); // ends inside the texel
+    EXPECT_FALSE(feature_valid(0x2129)); // one segment, straight and not
+    EXPECT_FALSE(feature_valid(0x0008)); // straight, and none there
+    EXPECT_FALSE(feature_valid(0x21a1)); // the greater edge's fourth bit
 }
 
 TEST(FeatureConfigurations, namesDiffer) {
@@ -72,6 +79,7 @@ TEST(FeatureConfigurations, namesDiffer) {
     EXPECT_EQ(names.size(), feature_configuration_count());
     EXPECT_EQ(feature_name(0), "empty");
     EXPECT_EQ(feature_name(0x4231), "N-S E-W");
+    EXPECT_EQ(feature_name(0x4a31), "N-S E|W");
 }
 
 TEST(FeatureConfigurations, symmetriesMapThemOntoThemselves) {
@@ -87,6 +95,15 @@ TEST(FeatureConfigurations, symmetriesMapThemOntoThemselves) {
             images.insert(image);
         }
         EXPECT_EQ(images.size(), feature_configuration_count());
+    }
+}
+
+TEST(FeatureConfigurations, symmetriesKeepWhichSegmentIsStraight) {
+    const FeatureConfiguration c = feature_pack({North, East}, {North, South}, true, false);
+    for (std::uint32_t s = 0; s < kFeatureSymmetries; ++s) {
+        const FeatureSegmentList list = feature_unpack(feature_turned(s, c));
+        for (std::uint32_t k = 0; k < 2; ++k)
+            EXPECT_EQ(list.straight[k], list.segment[k] == feature_turned(s, FeatureSegment{North, East}));
     }
 }
 
@@ -197,7 +214,7 @@ TEST(FeatureValidator, takesWhatTheRulesAllow) {
     for (const Format& f : kFormats)
         for (const bool linear : {true, false}) {
             FeatureCurvesTexture t = feature_empty_texture(4, 3, f.format, linear, 2);
-            t.configurations[5] = feature_pack({North, West}, {East, West}); // a curve may end on a boundary
+            t.configurations[5] = feature_pack({North, West}, {East, West}, !linear, !linear); // may end on a boundary
             feature_set_crossing(t, 1, 1, North, {0.2, 3});
             feature_set_crossing(t, 1, 1, West, {1, 2});
             feature_set_crossing(t, 2, 1, West, {0, 1});
@@ -219,11 +236,82 @@ TEST(FeatureValidator, refusesWhatTheyDont) {
     EXPECT_EQ(with([](auto& t) { t.format = static_cast<FeatureNumberFormat>(3); }), FindingCode::FeatureFormat);
     EXPECT_EQ(with([](auto& t) { t.distance_limit = NAN; }), FindingCode::FeatureFormat);
     EXPECT_EQ(with([](auto& t) { t.configurations[3] = 0x1111; }), FindingCode::FeatureBadTexel);
+    EXPECT_EQ(with([](auto& t) {
+                  t.configurations[3] = feature_pack({North, South}, {North, South});
+              }),
+              FindingCode::FeatureNoCurve);                                                // angles of 0
     EXPECT_EQ(with([](auto& t) { t.signatures[1] = 0x7c; }), FindingCode::FeatureNumber);  // infinite
     EXPECT_EQ(with([](auto& t) { t.signatures[1] = 0xb8; }), FindingCode::FeatureNumber);  // -1/2
     EXPECT_EQ(with([](auto& t) { t.signatures[3] = 0x43; }), FindingCode::FeatureNumber);  // 3.5 radians
     EXPECT_EQ(with([](auto& t) { t.distances[0] = 1; }), FindingCode::FeatureNumber);      // beyond the limit
     EXPECT_EQ(with([](auto& t) { t.signatures[0] = 1; }), FindingCode::FeatureUnusedEdge); // no curve there
+}
+
+TEST(FeatureValidator, knowsNoStraightSegmentsInLinearTextures) {
+    FeatureCurvesTexture t = feature_empty_texture(4, 3, FeatureNumberFormat::Float, true, 2);
+    t.configurations[0] = feature_pack({North, South}, {North, South}, true, true);
+    EXPECT_EQ(first_finding(t), FindingCode::FeatureBadTexel);
+}
+
+/// Tangents from the middle of the north edge and from `position` of the east edge.
+std::optional<FeaturePoint> middle_of(double north_angle, double position, double east_angle) {
+    return feature_middle_point({0.5, north_angle}, {0.5, 0}, {position, east_angle}, {1, position});
+}
+
+TEST(FeatureCurve, middlePointIsWhereTheTangentsMeetInTheTexel) {
+    const auto corner = middle_of(std::numbers::pi / 2, 0.5, 0);
+    ASSERT_TRUE(corner);
+    EXPECT_NEAR(corner->x, 0.5, 1e-15);
+    EXPECT_NEAR(corner->y, 0.5, 1e-15);
+    EXPECT_FALSE(middle_of(std::numbers::pi / 2, 0.5, 0.9));                           // above the texel
+    EXPECT_FALSE(middle_of(1, 0.5, 1));                                                // parallel
+    EXPECT_FALSE(middle_of(std::numbers::pi / 4, 0.5, std::numbers::pi / 4 + 0.0009)); // hardly a turn
+    EXPECT_TRUE(middle_of(std::numbers::pi / 4 + 0.0005, 0.5, std::numbers::pi / 4 - 0.0005));
+}
+
+TEST(FeatureCurve, goesThroughItsEndsInTheirDirections) {
+    Random random(11);
+    int curves = 0;
+    for (int n = 0; n < 4000; ++n) {
+        FeatureSignature s;
+        for (FeatureCrossing& c : s)
+            c = {random.between(0, 1), random.between(0, std::numbers::pi)};
+        for (const FeatureSegment segment : kFeatureSegments) {
+            const auto q = feature_curve(s, segment, false);
+            if (!q) continue;
+            ++curves;
+            for (const bool last : {false, true}) {
+                const FeatureEdge e = last ? segment.second : segment.first;
+                const FeatureCrossing& c = s[feature_edge_index(e)];
+                const FeaturePoint at = feature_curve_at(*q, last), to = feature_curve_derivative(*q, last);
+                EXPECT_EQ(at.x, feature_point(e, c.position).x);
+                EXPECT_EQ(at.y, feature_point(e, c.position).y);
+                EXPECT_NEAR(to.x * std::sin(c.angle), to.y * std::cos(c.angle), 1e-12);
+            }
+            for (double u = 0.1; u < 1; u += 0.2) {
+                const FeaturePoint p = feature_curve_at(*q, u);
+                EXPECT_TRUE(p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1);
+            }
+        }
+    }
+    EXPECT_GT(curves, 1000);
+}
+
+TEST(FeatureCurve, isReadFromTheTexturesEdges) {
+    FeatureCurvesTexture t = feature_empty_texture(2, 2, FeatureNumberFormat::Float, false, 1);
+    t.configurations[3] = feature_pack({North, East}, {North, West}, true, false);
+    feature_set_crossing(t, 1, 1, North, {0.75, std::numbers::pi / 2});
+    feature_set_crossing(t, 1, 1, West, {0.5, 0});
+    feature_set_crossing(t, 2, 1, West, {0.25, 0});
+    ASSERT_EQ(first_finding(t), FindingCode{});
+    const FeatureQuadratic straight = feature_segment_curve(t, 1, 1, 0), bent = feature_segment_curve(t, 1, 1, 1);
+    EXPECT_TRUE(straight.straight);
+    EXPECT_EQ(straight.b1.x, 0.875);
+    EXPECT_EQ(straight.b1.y, 0.125);
+    EXPECT_FALSE(bent.straight);
+    EXPECT_NEAR(bent.b1.x, 0.75, 1e-6);
+    EXPECT_NEAR(bent.b1.y, 0.5, 1e-6);
+    EXPECT_EQ(bent.b2.x, 0);
 }
 
 } // namespace
