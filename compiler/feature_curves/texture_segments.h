@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The curves that a texture stores, as Bezier segments by texel. Frame: texels, x right, y down.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compiler/scene/scene_builder.h"
+#include "formats/feature_curves.h"
+
+namespace fetexc {
+
+struct TextureSegment {
+    CanvasSegment curve;         ///< of degree 1 or 2, from its first edge to its second
+    fetex::FeatureSegment edges; ///< of its texel
+};
+
+/// The texels of rows and columns that have curves, a bit each.
+class OccupiedTexels {
+  public:
+    OccupiedTexels(std::uint32_t width, std::uint32_t height)
+        : row_words_(width / 64 + 1), column_words_(height / 64 + 1), rows_(std::size_t{row_words_} * height),
+          columns_(std::size_t{column_words_} * width) {}
+
+    void set(std::uint32_t i, std::uint32_t j) {
+        rows_[std::size_t{j} * row_words_ + i / 64] |= std::uint64_t{1} << i % 64;
+        columns_[std::size_t{i} * column_words_ + j / 64] |= std::uint64_t{1} << j % 64;
+    }
+    /// visit(i) for those of row j from column `first` to `last`, in increasing order.
+    template <class Visit>
+    void in_row(std::uint32_t j, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+        in_line(rows_.data() + std::size_t{j} * row_words_, first, last, visit);
+    }
+    /// visit(j) for those of column i from row `first` to `last`.
+    template <class Visit>
+    void in_column(std::uint32_t i, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
+        in_line(columns_.data() + std::size_t{i} * column_words_, first, last, visit);
+    }
+
+  private:
+    template <class Visit>
+    static void in_line(const std::uint64_t* words, std::uint32_t first, std::uint32_t last, const Visit& visit) {
+        for (std::uint32_t w = first / 64; w <= last / 64; ++w) {
+            std::uint64_t bits = words[w];
+            if (w == first / 64) bits &= ~std::uint64_t{0} << first % 64;
+            if (w == last / 64) bits &= ~std::uint64_t{0} >> (63 - last % 64);
+            for (; bits != 0; bits &= bits - 1)
+                visit(64 * w + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+    }
+
+    std::uint32_t row_words_, column_words_;
+    std::vector<std::uint64_t> rows_, columns_;
+};
+
+class TextureSegments {
+  public:
+    /// Precondition: validate_feature_curves finds nothing but in distances and gradients. threads: 0: all; never
+    /// changes the result.
+    TextureSegments(const fetex::FeatureCurvesTexture& texture, unsigned threads);
+
+    [[nodiscard]] std::uint32_t width() const { return width_; }
+    [[nodiscard]] std::uint32_t height() const { return height_; }
+    /// Of texel (i,j), in the order of its configuration.
+    [[nodiscard]] std::span<const TextureSegment> of(std::uint32_t i, std::uint32_t j) const {
+        const std::size_t texel = std::size_t{j} * width_ + i;
+        return {segments_.data() + first_[texel], segments_.data() + first_[texel + 1]};
+    }
+    [[nodiscard]] std::span<const TextureSegment> all() const { return segments_; }
+    [[nodiscard]] const OccupiedTexels& occupied() const { return occupied_; }
+
+  private:
+    std::uint32_t width_, height_;
+    std::vector<std::uint32_t> first_; ///< by texel, and the end
+    std::vector<TextureSegment> segments_;
+    OccupiedTexels occupied_;
+};
+
+} // namespace fetexc
