@@ -18,44 +18,44 @@ constexpr std::size_t kRows = 8; ///< of corners, for a thread at a time
 constexpr double kOnCurve = 0x1p-28;
 
 struct Nearest {
-    double distance = 0; ///< up to it is looked
+    double squared = 0; ///< distance; up to it is looked
     CanvasPoint point;
-    const TextureSegment* segment = nullptr; ///< none nearer than that
-    std::uint32_t i = 0, j = 0;              ///< its texel
+    bool found = false;
+    TextureSegment segment;     ///< if found
+    std::uint32_t i = 0, j = 0; ///< its texel
 };
 
-double distance_between(CanvasPoint a, CanvasPoint b) {
-    const double dx = a.x - b.x, dy = a.y - b.y;
-    return std::sqrt(dx * dx + dy * dy);
+CanvasPoint nearest_on_line(CanvasPoint a, CanvasPoint b, CanvasPoint p) {
+    const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
+    if (!(length > 0)) return a;
+    const double t = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length, 0.0, 1.0);
+    return t == 1 ? b : CanvasPoint{a.x + t * dx, a.y + t * dy};
 }
 
-CanvasPoint nearest_on_line(const CanvasSegment& s, CanvasPoint p) {
-    const double dx = s.p[1].x - s.p[0].x, dy = s.p[1].y - s.p[0].y, length = dx * dx + dy * dy;
-    if (!(length > 0)) return s.p[0];
-    const double t = std::clamp(((p.x - s.p[0].x) * dx + (p.y - s.p[0].y) * dy) / length, 0.0, 1.0);
-    return t == 1 ? s.p[1] : CanvasPoint{s.p[0].x + t * dx, s.p[0].y + t * dy};
+double squared_distance(CanvasPoint a, CanvasPoint b) {
+    const double dx = a.x - b.x, dy = a.y - b.y;
+    return dx * dx + dy * dy;
 }
 
 /// Whether it is nearer.
 bool look_at(const TextureSegment& s, CanvasPoint p, Nearest& best) {
     CanvasPoint point;
-    double distance = 0;
-    if (s.curve.degree == 1) {
-        point = nearest_on_line(s.curve, p), distance = distance_between(p, point);
+    if (!s.middle) {
+        point = nearest_on_line(s.from, s.to, p);
     } else {
-        const CurveDistance found = nearest_below(s.curve, p.x, p.y, {best.distance, 0});
-        point = bezier::point_at(s.curve, found.t), distance = found.distance;
+        const CanvasSegment curve = curve_of(s);
+        point = bezier::point_at(curve, nearest_below(curve, p.x, p.y, {std::sqrt(best.squared), 0}).t);
     }
-    if (!(distance < best.distance)) return false;
-    best.distance = distance, best.point = point, best.segment = &s;
+    const double squared = squared_distance(point, p);
+    if (!(squared < best.squared)) return false;
+    best.squared = squared, best.point = point, best.found = true, best.segment = s;
     return true;
 }
 
 /// Of the end that is at the corner.
-CanvasPoint tangent_at(const CanvasSegment& s, CanvasPoint corner) {
-    const auto n = static_cast<std::size_t>(s.degree);
-    const bool first = distance_between(s.p[0], corner) <= distance_between(s.p[n], corner);
-    const CanvasPoint a = first ? s.p[0] : s.p[n - 1], b = first ? s.p[1] : s.p[n];
+CanvasPoint tangent_at(const TextureSegment& s, CanvasPoint corner) {
+    const bool first = squared_distance(s.from, corner) <= squared_distance(s.to, corner);
+    const CanvasPoint a = first ? s.from : s.middle.value_or(s.from), b = first ? s.middle.value_or(s.to) : s.to;
     return {b.x - a.x, b.y - a.y};
 }
 
@@ -64,11 +64,11 @@ CanvasPoint tangent_at(const CanvasSegment& s, CanvasPoint corner) {
 DistanceGradient normal_at_corner(const Nearest& at, CanvasPoint corner) {
     // Clockwise from the one after North's point.
     const std::size_t place = corner.y > at.j ? (corner.x > at.i ? 1 : 2) : (corner.x > at.i ? 0 : 3);
-    const fetex::FeatureSegment& edges = at.segment->edges;
+    const fetex::FeatureSegment& edges = at.segment.edges;
     const bool left =
         place >= fetex::feature_edge_index(edges.first) && place < fetex::feature_edge_index(edges.second);
-    const CanvasPoint t = tangent_at(at.segment->curve, corner);
-    const double length = distance_between(t, {0, 0}), sign = left ? 1 : -1;
+    const CanvasPoint t = tangent_at(at.segment, corner);
+    const double length = std::sqrt(squared_distance(t, {0, 0})), sign = left ? 1 : -1;
     if (!(length > 0)) return {0, 0};
     return {sign * t.y / length, -sign * t.x / length};
 }
@@ -79,15 +79,17 @@ class Rasteriser {
 
     void corner(std::uint32_t i, std::uint32_t j) {
         const CanvasPoint p{static_cast<double>(i), static_cast<double>(j)};
-        Nearest best{map_.limit, {}, nullptr};
-        for (std::uint32_t ring = 0; ring < best.distance; ++ring) // a ring's texels are so far at least
+        Nearest best;
+        best.squared = map_.limit * map_.limit;
+        for (std::uint32_t ring = 0; ring * ring < best.squared; ++ring) // a ring's texels are so far at least
             look_at_ring(i, j, ring, p, best);
         const std::size_t at = std::size_t{j} * (std::size_t{map_.width} + 1) + i;
-        map_.distances[at] = best.distance;
-        if (best.segment == nullptr) return;
-        map_.gradients[at] = best.distance > kOnCurve ? DistanceGradient{(p.x - best.point.x) / best.distance,
-                                                                         (p.y - best.point.y) / best.distance}
-                                                      : normal_at_corner(best, p);
+        const double distance = best.found ? std::min(std::sqrt(best.squared), map_.limit) : map_.limit;
+        map_.distances[at] = distance;
+        if (!(distance < map_.limit)) return;
+        map_.gradients[at] = distance > kOnCurve
+                                 ? DistanceGradient{(p.x - best.point.x) / distance, (p.y - best.point.y) / distance}
+                                 : normal_at_corner(best, p);
     }
 
   private:
@@ -102,8 +104,9 @@ class Rasteriser {
             return static_cast<std::uint32_t>(std::min<std::int64_t>(to, std::int64_t{count} - 1));
         };
         const auto look = [&](std::uint32_t x, std::uint32_t y) {
-            for (const TextureSegment& s : segments_.of(x, y))
+            segments_.visit_texel(x, y, [&](const TextureSegment& s) {
                 if (look_at(s, p, best)) best.i = x, best.j = y;
+            });
         };
         const OccupiedTexels& occupied = segments_.occupied();
         for (const std::int64_t y : {top, bottom})

@@ -25,20 +25,20 @@ class Smoother {
                 join(i, j, texture);
     }
 
+    /// Without branches, which no processor could foresee: what isn't joined is replaced by the corner itself.
     void smooth_row(const std::vector<DistanceGradient>& from, std::vector<DistanceGradient>& to, std::size_t j) const {
         static constexpr std::array<double, 5> kShare = {0, kStep, kStep / 2, kStep / 3, kStep / 4};
         for (std::size_t at = j * columns_; at < (j + 1) * columns_; ++at) {
-            const std::uint8_t joined = neighbours_[at];
-            to[at] = from[at];
-            if (joined == 0) continue;
-            double x = 0, y = 0;
-            const auto add = [&](const DistanceGradient& g) { x += g.x, y += g.y; };
-            if (joined & kLeft) add(from[at - 1]);
-            if (joined & kRight) add(from[at + 1]);
-            if (joined & kAbove) add(from[at - columns_]);
-            if (joined & kBelow) add(from[at + columns_]);
-            const double share = kShare[static_cast<std::size_t>(std::popcount(joined))];
-            to[at] = {(1 - kStep) * from[at].x + share * x, (1 - kStep) * from[at].y + share * y};
+            const unsigned joined = neighbours_[at];
+            const auto count = static_cast<std::size_t>(std::popcount(joined));
+            const DistanceGradient &g = from[at], &left = from[at - (joined & 1u)],
+                                   &right = from[at + (joined >> 1 & 1u)],
+                                   &above = from[at - columns_ * (joined >> 2 & 1u)],
+                                   &below = from[at + columns_ * (joined >> 3 & 1u)];
+            const double share = kShare[count],
+                         itself = (count > 0 ? 1 - kStep : 1) - static_cast<double>(4 - count) * share;
+            to[at] = {itself * g.x + share * (left.x + right.x + above.x + below.x),
+                      itself * g.y + share * (left.y + right.y + above.y + below.y)};
         }
     }
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,10 +13,14 @@
 
 namespace fetexc {
 
+/// From its first edge to its second.
 struct TextureSegment {
-    CanvasSegment curve;         ///< of degree 1 or 2, from its first edge to its second
-    fetex::FeatureSegment edges; ///< of its texel
+    CanvasPoint from, to;
+    std::optional<CanvasPoint> middle; ///< of a quadratic
+    fetex::FeatureSegment edges;       ///< of its texel
 };
+
+CanvasSegment curve_of(const TextureSegment& s);
 
 /// The texels of rows and columns that have curves, a bit each.
 class OccupiedTexels {
@@ -57,24 +62,45 @@ class OccupiedTexels {
 
 class TextureSegments {
   public:
-    /// Precondition: validate_feature_curves finds nothing but in distances and gradients. threads: 0: all; never
-    /// changes the result.
-    TextureSegments(const fetex::FeatureCurvesTexture& texture, unsigned threads);
+    /// Precondition: validate_feature_curves finds nothing but in distances and gradients.
+    explicit TextureSegments(const fetex::FeatureCurvesTexture& texture);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
-    /// Of texel (i,j), in the order of its configuration.
-    [[nodiscard]] std::span<const TextureSegment> of(std::uint32_t i, std::uint32_t j) const {
-        const std::size_t texel = std::size_t{j} * width_ + i;
-        return {segments_.data() + first_[texel], segments_.data() + first_[texel + 1]};
-    }
-    [[nodiscard]] std::span<const TextureSegment> all() const { return segments_; }
     [[nodiscard]] const OccupiedTexels& occupied() const { return occupied_; }
 
+    /// visit(segment) for those of texel (i,j), in the order of its configuration.
+    template <class Visit> void visit_texel(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
+        const std::size_t texel = std::size_t{j} * width_ + i;
+        const fetex::FeatureSegmentList list = fetex::feature_unpack(configurations_[texel]);
+        for (std::uint32_t k = 0; k < list.count; ++k) {
+            const fetex::FeatureSegment edges = list.segment[k];
+            TextureSegment s{point(i, j, edges.first), point(i, j, edges.second), {}, edges};
+            if (!middles_.empty()) s.middle = middles_[2 * texel + k];
+            visit(s);
+        }
+    }
+
   private:
+    [[nodiscard]] CanvasPoint point(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        const std::size_t corner = std::size_t{j} * (std::size_t{width_} + 1) + i;
+        const double x = i, y = j;
+        switch (e) {
+        case fetex::FeatureEdge::North:
+            return {x + north_[corner], y};
+        case fetex::FeatureEdge::East:
+            return {x + 1, y + west_[corner + 1]};
+        case fetex::FeatureEdge::South:
+            return {x + north_[corner + width_ + 1], y + 1};
+        default:
+            return {x, y + west_[corner]};
+        }
+    }
+
     std::uint32_t width_, height_;
-    std::vector<std::uint32_t> first_; ///< by texel, and the end
-    std::vector<TextureSegment> segments_;
+    std::span<const fetex::FeatureConfiguration> configurations_;
+    std::vector<double> north_, west_;                ///< positions, by the texels' upper left corners
+    std::vector<std::optional<CanvasPoint>> middles_; ///< two a texel; none in a linear texture
     OccupiedTexels occupied_;
 };
 

@@ -57,15 +57,29 @@ FeatureCurvesTexture snapped(const Network& network, std::uint32_t width, std::u
     return linear_texture(snap_lines(lines.value(), width, height), fetex::FeatureNumberFormat::Float, kLimit);
 }
 
-/// On the segments' whole length.
-CanvasPoint nearest_point(const TextureSegments& segments, CanvasPoint p) {
+std::vector<TextureSegment> all_of(const FeatureCurvesTexture& t) {
+    std::vector<TextureSegment> all;
+    for (std::uint32_t j = 0; j < t.height; ++j) {
+        for (std::uint32_t i = 0; i < t.width; ++i) {
+            const fetex::FeatureSignature s = fetex::feature_signature(t, i, j);
+            const auto point = [&](FeatureEdge e) -> CanvasPoint {
+                const fetex::FeaturePoint p = fetex::feature_point(e, s[fetex::feature_edge_index(e)].position);
+                return {i + p.x, j + p.y};
+            };
+            for (const fetex::FeatureSegment e : fetex::feature_unpack(t.configurations[std::size_t{j} * t.width + i]))
+                all.push_back({point(e.first), point(e.second), {}, e});
+        }
+    }
+    return all;
+}
+
+CanvasPoint nearest_point(const std::vector<TextureSegment>& segments, CanvasPoint p) {
     CanvasPoint best{};
     double least = std::numeric_limits<double>::infinity();
-    for (const TextureSegment& s : segments.all()) {
-        const CanvasPoint a = s.curve.p[0], b = s.curve.p[1];
-        const double dx = b.x - a.x, dy = b.y - a.y, n = dx * dx + dy * dy;
-        const double t = n > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / n, 0.0, 1.0) : 0;
-        const CanvasPoint q{a.x + t * dx, a.y + t * dy};
+    for (const TextureSegment& s : segments) {
+        const double dx = s.to.x - s.from.x, dy = s.to.y - s.from.y, n = dx * dx + dy * dy;
+        const double t = n > 0 ? std::clamp(((p.x - s.from.x) * dx + (p.y - s.from.y) * dy) / n, 0.0, 1.0) : 0;
+        const CanvasPoint q{s.from.x + t * dx, s.from.y + t * dy};
         if (const double d = std::hypot(q.x - p.x, q.y - p.y); d < least) least = d, best = q;
     }
     return best;
@@ -76,13 +90,13 @@ TEST(DistanceMap, isExactOnRandomNetworks) {
     std::size_t near = 0, far = 0;
     for (int k = 0; k < 40; ++k) {
         const FeatureCurvesTexture t = snapped(random_network(random, k % 2 == 0 ? 5 : 25), 30, 17);
-        const TextureSegments segments(t, 1);
-        const DistanceMap map = distance_map(segments, kLimit, 1);
-        if (segments.all().empty()) continue;
+        const DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
+        const std::vector<TextureSegment> all = all_of(t);
+        if (all.empty()) continue;
         for (std::uint32_t j = 0; j <= t.height; ++j) {
             for (std::uint32_t i = 0; i <= t.width; ++i) {
                 const std::size_t at = std::size_t{j} * (t.width + 1) + i;
-                const CanvasPoint q = nearest_point(segments, {double(i), double(j)});
+                const CanvasPoint q = nearest_point(all, {double(i), double(j)});
                 const double d = std::hypot(q.x - i, q.y - j);
                 ASSERT_NEAR(map.distances[at], std::min<double>(d, kLimit), kRounding) << i << ' ' << j;
                 const DistanceGradient g = map.gradients[at];
@@ -93,7 +107,7 @@ TEST(DistanceMap, isExactOnRandomNetworks) {
                 }
                 // Between two points as near as each other either direction is right: so the point it points to counts.
                 ++near;
-                const CanvasPoint to{i - d * g.x, j - d * g.y}, on = nearest_point(segments, to);
+                const CanvasPoint to{i - d * g.x, j - d * g.y}, on = nearest_point(all, to);
                 ASSERT_NEAR(std::hypot(on.x - to.x, on.y - to.y), 0, kRounding) << i << ' ' << j;
                 ASSERT_NEAR(std::hypot(g.x, g.y), 1, kRounding);
             }
@@ -107,7 +121,7 @@ TEST(DistanceMap, hasTheSameBitsForAnyNumberOfThreads) {
     Random random(2);
     const FeatureCurvesTexture t = snapped(random_network(random, 25), 150, 97);
     const auto made = [&](unsigned threads) {
-        DistanceMap map = distance_map(TextureSegments(t, threads), kLimit, threads);
+        DistanceMap map = distance_map(TextureSegments(t), kLimit, threads);
         smooth_gradients(map, t, kGradientIterations, threads);
         return map;
     };
@@ -118,7 +132,7 @@ TEST(DistanceMap, hasTheSameBitsForAnyNumberOfThreads) {
 
 TEST(DistanceMap, isTheLimitWithoutCurves) {
     const FeatureCurvesTexture t = empty(3, 5);
-    DistanceMap map = distance_map(TextureSegments(t, 1), 2.5, 1);
+    DistanceMap map = distance_map(TextureSegments(t), 2.5, 1);
     smooth_gradients(map, t, 3, 1);
     EXPECT_EQ(map.distances, std::vector<double>(4 * 6, 2.5));
     EXPECT_EQ(map.gradients, std::vector<DistanceGradient>(4 * 6));
@@ -130,7 +144,7 @@ TEST(DistanceMap, cornersOnACurvePointToTheirOwnSide) {
         for (const double end : {0.0, 1.0}) {
             FeatureCurvesTexture t = empty(3, 3);
             put(t, at, 1, {North, South}, {North, South}, {end, 0, end, 0});
-            const DistanceMap map = distance_map(TextureSegments(t, 1), kLimit, 1);
+            const DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
             for (const std::uint32_t j : {1u, 2u}) {
                 const std::size_t corner = j * 4 + at + (end == 1 ? 1 : 0);
                 EXPECT_EQ(map.distances[corner], 0);
@@ -144,7 +158,7 @@ TEST(DistanceMap, cornersOnADiagonalPointAwayFromItOrAreAllOnOneSide) {
     FeatureCurvesTexture t = empty(1, 1);
     // From the upper right corner, which is right of North's point, to the lower left one, left of South's.
     put(t, 0, 0, {North, South}, {North, South}, {1, 0, 0, 0});
-    const DistanceMap map = distance_map(TextureSegments(t, 1), kLimit, 1);
+    const DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
     const double r = std::sqrt(0.5);
     EXPECT_NEAR(map.gradients[0].x, -r, kRounding); // upper left
     EXPECT_NEAR(map.gradients[1].x, r, kRounding);  // on the curve, to the right
@@ -158,7 +172,7 @@ TEST(GradientSmoothing, leavesStraightLinesAlone) {
     FeatureCurvesTexture t = empty(6, 6);
     for (std::uint32_t j = 0; j < 6; ++j)
         put(t, 2, j, {North, South}, {North, South}, {0.25, 0, 0.25, 0});
-    DistanceMap map = distance_map(TextureSegments(t, 1), kLimit, 1);
+    DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
     const DistanceMap before = map;
     smooth_gradients(map, t, kGradientIterations, 1);
     EXPECT_EQ(map.gradients, before.gradients);
@@ -193,7 +207,7 @@ TEST(GradientSmoothing, takesMeansOfCornersThatNoPointSeparates) {
     FeatureCurvesTexture t = empty(4, 4);
     put(t, 1, 1, {North, East}, {North, East}, {0.5, 0.25, 0, 0});
     put(t, 2, 1, {South, West}, {South, West}, {0, 0, 0.75, 0.25});
-    DistanceMap map = distance_map(TextureSegments(t, 1), 2, 1);
+    DistanceMap map = distance_map(TextureSegments(t), 2, 1);
     const int c = 5;
     const std::set<std::pair<int, int>> cut = {{c + 1, c + 2}, {c + 2, 2 * c + 2}, {2 * c + 2, 2 * c + 3}};
     for (int k = 0; k < 3; ++k) {
@@ -211,7 +225,7 @@ TEST(GradientSmoothing, bringsDirectionsAcrossAMedialAxisTogether) {
     for (std::uint32_t j = 0; j < 4; ++j)
         for (const std::uint32_t i : {1u, 6u})
             put(t, i, j, {North, South}, {North, South}, {0.5, 0, 0.5, 0});
-    DistanceMap map = distance_map(TextureSegments(t, 1), kLimit, 1);
+    DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
     EXPECT_EQ(map.gradients[3].x - map.gradients[5].x, 2); // corners 3 (d = 1.5) and 5 (d = 1.5) of row 0; 4 has 2.5
     smooth_gradients(map, t, kGradientIterations, 1);
     EXPECT_LT(map.gradients[3].x - map.gradients[5].x, 1);
