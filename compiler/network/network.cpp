@@ -22,6 +22,12 @@ std::uint64_t segment_count(const Network& network) {
     return n;
 }
 
+std::optional<FeatureProfile> find_profile(const Network& network, const std::string& name) {
+    const auto found = std::ranges::find(network.profiles, name, &FeatureProfile::name);
+    if (found != network.profiles.end()) return *found;
+    return preset_profile(name, kPresetWidth * std::max(network.width, network.height));
+}
+
 Network network_of(const FeatureCurves& features) {
     Network network{features.width, features.height, {}};
     for (const CanvasContour& run : features.runs) {

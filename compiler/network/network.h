@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/network/profile.h"
 #include "compiler/raster/feature_scene.h"
 #include "compiler/scene/scene_builder.h"
 
@@ -17,7 +18,7 @@ struct NetworkCurve {
     /// Lines, quadratics and cubics; each begins where the one before ends, and none is a single point. Not empty.
     std::vector<CanvasSegment> segments;
     bool closed = false; ///< the last segment ends where the first begins, and the curve goes on there
-    std::string profile; ///< name of what is done near the curve; empty: the texture's
+    std::string profile; ///< name of what is done near the curve (find_profile); empty: the network's
     /// Values on the sides, straight alpha; seen along the curve, y being down, right is where y is for x.
     std::optional<Rgba> left, right;
 };
@@ -25,7 +26,15 @@ struct NetworkCurve {
 struct Network {
     double width = 0, height = 0; ///< user units, > 0
     std::vector<NetworkCurve> curves;
+    std::vector<FeatureProfile> profiles = {}; ///< by name
+    std::string profile = {};                  ///< what curves without one have; empty: the texture's
 };
+
+/// Larger sides of the canvas: a preset that is named without a width.
+inline constexpr double kPresetWidth = 1.0 / 64;
+
+/// The network's profile of that name, or the preset (profile.h).
+std::optional<FeatureProfile> find_profile(const Network& network, const std::string& name);
 
 /// How many segments all curves have.
 std::uint64_t segment_count(const Network& network);

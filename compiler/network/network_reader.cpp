@@ -3,50 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <string_view>
-
-#include <nlohmann/json.hpp>
 
 #include "compiler/diagnostics.h"
+#include "compiler/network/json_members.h"
+#include "compiler/network/profile_reader.h"
 
 namespace fetexc {
 namespace {
 
-using Json = nlohmann::json;
-
-/// Leaves the reader; never leaves read_network.
-struct Refused {
-    Error error;
-};
-
-[[noreturn]] void refuse(int code, std::string message, std::string place) {
-    throw Refused{{ErrorClass::InvalidInput, code, std::move(message), std::move(place)}};
-}
-
-std::string position_name(std::span<const std::uint8_t> bytes, std::size_t at) {
-    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at, bytes.size()));
-    const auto line = 1 + std::count(bytes.begin(), end, '\n');
-    const auto start = std::find(std::make_reverse_iterator(end), bytes.rend(), '\n').base();
-    return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::ptrdiff_t>(end - start, 1));
-}
-
-/// The library's text without its number and position, which comes before ": ".
-std::string reason(const std::string& what) {
-    const std::size_t colon = what.find(": ");
-    return colon == std::string::npos ? what : what.substr(colon + 2);
-}
-
-Json parse(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() > kNetworkMaxBytes) refuse(diag::kNetworkTooLarge, "the network is longer than 256 MiB", "");
-    try {
-        return Json::parse(bytes.begin(), bytes.end());
-    } catch (const Json::parse_error& e) {
-        refuse(diag::kNetworkMalformed, "not JSON: " + reason(e.what()), position_name(bytes, e.byte));
-    } catch (const Json::exception& e) { // a number beyond double precision
-        refuse(diag::kNetworkNumber, reason(e.what()), "");
-    }
-}
+using namespace json;
 
 class Reader {
   public:
@@ -58,11 +23,15 @@ class Reader {
         const Json& schema = member(root_, "schema", place);
         if (schema != "fetexc-network/1")
             refuse(diag::kNetworkMalformed, "the member schema isn't \"fetexc-network/1\"", place);
-        check_members(root_, {"schema", "width", "height", "curves"}, place);
+        check_members(root_, {"schema", "width", "height", "profiles", "profile", "curves"}, place);
         Network network;
         network.width = side("width");
         network.height = side("height");
         reach_ = kNetworkReach * std::max(network.width, network.height);
+        if (const auto profiles = root_.find("profiles"); profiles != root_.end())
+            network.profiles = read_profiles(*profiles, reach_);
+        network.profile = text(root_, "profile", place);
+        check_profile(network, network.profile, place);
         const Json& curves = array(member(root_, "curves", place), "curves", place);
         for (const Json& c : curves)
             read_curve(c, network);
@@ -71,30 +40,6 @@ class Reader {
     }
 
   private:
-    static const Json& member(const Json& object, const char* name, const std::string& place) {
-        const auto found = object.find(name);
-        if (found == object.end())
-            refuse(diag::kNetworkMember, std::string("the member ") + name + " is missing", place);
-        return *found;
-    }
-
-    static const Json& array(const Json& value, const char* name, const std::string& place) {
-        if (!value.is_array()) refuse(diag::kNetworkMember, std::string(name) + " isn't an array", place);
-        return value;
-    }
-
-    static void check_members(const Json& object, std::initializer_list<std::string_view> known,
-                              const std::string& place) {
-        for (const auto& [name, value] : object.items())
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                refuse(diag::kNetworkMember, "unknown member \"" + name + "\"", place);
-    }
-
-    static double number(const Json& value, const char* name, const std::string& place) {
-        if (!value.is_number()) refuse(diag::kNetworkMember, std::string(name) + " isn't a number", place);
-        return value.get<double>();
-    }
-
     double side(const char* name) const {
         const double v = number(member(root_, name, "network"), name, "network");
         if (!(v > 0 && v <= kNetworkMaxSide))
@@ -110,28 +55,6 @@ class Reader {
             return v;
         };
         return {coordinate(at), coordinate(at + 1)};
-    }
-
-    static std::string text(const Json& object, const char* name, const std::string& place) {
-        const auto found = object.find(name);
-        if (found == object.end()) return {};
-        if (!found->is_string()) refuse(diag::kNetworkMember, std::string(name) + " isn't a string", place);
-        return found->get<std::string>();
-    }
-
-    static std::optional<Rgba> color(const Json& object, const char* name, const std::string& place) {
-        const auto found = object.find(name);
-        if (found == object.end()) return std::nullopt;
-        const Json& c = array(*found, name, place);
-        if (c.size() != 3 && c.size() != 4)
-            refuse(diag::kNetworkMember, std::string(name) + " hasn't three or four numbers", place);
-        std::array<double, 4> v = {0, 0, 0, 1};
-        for (std::size_t k = 0; k < c.size(); ++k) {
-            v[k] = number(c[k], name, place);
-            if (!(v[k] >= 0 && v[k] <= 1))
-                refuse(diag::kNetworkNumber, std::string(name) + " has a number outside 0 … 1", place);
-        }
-        return Rgba{v[0], v[1], v[2], v[3]};
     }
 
     CanvasSegment segment(const Json& numbers, CanvasPoint from, const std::string& place) const {
@@ -154,6 +77,7 @@ class Reader {
         if (!curve.name.empty()) place += " \"" + curve.name + "\"";
         check_members(c, {"name", "closed", "start", "segments", "profile", "left", "right"}, place);
         curve.profile = text(c, "profile", place);
+        check_profile(network, curve.profile, place);
         curve.left = color(c, "left", place), curve.right = color(c, "right", place);
         if (const auto closed = c.find("closed"); closed != c.end()) {
             if (!closed->is_boolean()) refuse(diag::kNetworkMember, "closed isn't true or false", place);
@@ -161,6 +85,12 @@ class Reader {
         }
         read_segments(c, curve, place);
         if (!curve.segments.empty()) network.curves.push_back(std::move(curve));
+    }
+
+    static void check_profile(const Network& network, const std::string& name, const std::string& place) {
+        if (!name.empty() && !find_profile(network, name))
+            refuse(diag::kNetworkProfile, "the network has no profile \"" + name + "\", and it isn't a preset's name",
+                   place);
     }
 
     void read_segments(const Json& c, NetworkCurve& curve, const std::string& place) {

@@ -59,7 +59,7 @@ std::uint64_t chords_for(const CanvasSegment& s, double tolerance) {
 
 template <class CountOf, class PieceOf>
 Result<Network> cut(const Network& network, const CountOf& count_of, const PieceOf& piece_of) {
-    Network out{network.width, network.height, {}};
+    Network out{network.width, network.height, {}, network.profiles, network.profile};
     std::uint64_t total = 0;
     for (const NetworkCurve& from : network.curves) {
         NetworkCurve curve = from;

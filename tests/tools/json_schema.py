@@ -57,6 +57,11 @@ def check_enum(value, rule, _schema, _root, where):
         yield f"{where}: none of {rule!r}: {value!r}"
 
 
+def check_oneOf(value, rule, _schema, root, where):
+    if sum(not list(problems(value, option, root, where)) for option in rule) != 1:
+        yield f"{where}: not just one of {len(rule)} choices"
+
+
 def check_pattern(value, rule, _schema, _root, where):
     if isinstance(value, str) and not re.search(rule, value):
         yield f"{where}: doesn't match {rule}: {value!r}"

@@ -28,6 +28,10 @@ def broken(network):
     yield with_change(lambda n: n["curves"][0].update(closed=1))
     yield with_change(lambda n: n["curves"][0].update(left=[2, 0, 0]))
     yield with_change(lambda n: n["curves"][0]["segments"].append([1, 2, 3, 4, 5, 6, 7, 8]))
+    for profile in ({"preset": "crease"}, {"preset": "hill", "width": 1}, {"heights": [[0, 1]]}, {},
+                    {"preset": "crease", "width": 1, "heights": [[0, 0], [1, 1]]},
+                    {"preset": "crease", "width": 0}, {"preset": "seam", "width": 1, "color": [0, 2, 0]}):
+        yield with_change(lambda n, p=profile: n.update(profiles={"p": p}))
 
 
 def main():
