@@ -177,6 +177,27 @@ inline constexpr double kFeatureChord = 0x1p-12;
 /// Texels: texels in which snapping moves a feature curve by more are told one by one.
 inline constexpr double kFeatureMoveTold = 0.5;
 
+/// Radians, and texels inside a texel: tangents closer than this are parallel. Angles are known to 2^-52; the point where
+/// two lines meet, to that over their angle, 2^-22 of a texel.
+inline constexpr double kFeatureParallel = 0x1p-30;
+
+/// Texels: what is no farther from the input hasn't moved. A middle point of tangents known to 2^-52 that meet at 2^-30.
+inline constexpr double kFeatureMoveNoise = 0x1p-20;
+
+/// Texels: fitted points and middle points stay so far from corners and edges. The coarsest angles, halves, are off by up
+/// to 2^-10, which moves a middle point across a texel by as much; eight times that leaves room for tangents that meet at
+/// small angles.
+inline constexpr double kFeatureMargin = 0x1p-7;
+
+/// Texels: a quadratic this close to its chord is written as straight where numbers of the texture can't hold it: half a
+/// step of its positions.
+inline constexpr double kFeatureFlat = kOutputStep / 2;
+
+/// Fitting ends at steps of this size (texels, and of the variables that stand for them) and constraints off by as much.
+/// The energy is flat around its least value: it is then known to the square of it.
+inline constexpr double kFeatureFitStop = 1e-9;
+inline constexpr int kFeatureFitSteps = 60;
+
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
 
 /// Areas of trapezoids (planar/trapezoid_area), in epsilons of long double: De Casteljau of values up to M errs by less

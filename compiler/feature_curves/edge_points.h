@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "formats/feature_curves.h"
@@ -24,16 +26,33 @@ struct EdgePoint {
     [[nodiscard]] double move(double to) const { return std::max(to - least, most - to); }
 };
 
-class EdgePoints {
+/// Directions of curves, as lines: their angles doubled, so that opposite ones are the same.
+struct EdgeDirection {
+    double cosine = 0, sine = 0; ///< sums
+
+    /// Not 0.
+    void add(double dx, double dy) {
+        const double square = dx * dx + dy * dy;
+        cosine += (dx * dx - dy * dy) / square, sine += 2 * dx * dy / square;
+    }
+    /// Of the mean, [0, π).
+    [[nodiscard]] double angle() const {
+        const double a = std::atan2(sine, cosine) / 2;
+        return a < 0 ? std::fmod(a + std::numbers::pi, std::numbers::pi) : a;
+    }
+};
+
+/// Something for every edge of the grid.
+template <class T> class EdgeGrid {
   public:
-    EdgePoints(std::uint32_t width, std::uint32_t height)
+    EdgeGrid() = default;
+    EdgeGrid(std::uint32_t width, std::uint32_t height)
         : tiles_(width / kTile + 1), points_(std::size_t{tiles_} * (height / kTile + 1) * kTile * kTile * 2) {}
 
+    [[nodiscard]] bool empty() const { return points_.empty(); }
     /// Of texel (i,j).
-    [[nodiscard]] EdgePoint& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
-        return points_[index(i, j, e)];
-    }
-    [[nodiscard]] const EdgePoint& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+    [[nodiscard]] T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) { return points_[index(i, j, e)]; }
+    [[nodiscard]] const T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
         return points_[index(i, j, e)];
     }
 
@@ -45,10 +64,14 @@ class EdgePoints {
         return 2 * (tile * kTile * kTile + row % kTile * kTile + column % kTile) + (e == East || e == West ? 1u : 0u);
     }
 
-    /// Texels a side of what lies together: 64 bytes each, a page of memory. Steep lines would touch a page a texel.
+    /// Texels a side of what lies together: of points 64 bytes each, a page of memory. Steep lines would touch a page a
+    /// texel.
     static constexpr std::size_t kTile = 8;
-    std::size_t tiles_; ///< in a row
-    std::vector<EdgePoint> points_;
+    std::size_t tiles_ = 0; ///< in a row
+    std::vector<T> points_;
 };
+
+using EdgePoints = EdgeGrid<EdgePoint>;
+using EdgeDirections = EdgeGrid<EdgeDirection>;
 
 } // namespace fetexc

@@ -31,6 +31,7 @@ struct GridCrossing {
     std::int32_t line = 0; ///< 0 … W of vertical ones, 0 … H of the others
     std::int32_t cell = 0; ///< row, or column, −1 and count outside the canvas
     double position = 0; ///< 0 … 1 along the cell, the exact one but for four roundings; exact at vertices and corners
+    bool increasing = true; ///< to the right, or down
 };
 
 /// base + (k-th grid line − start)·delta/length as a whole number and a rest, step by step, exact.
@@ -104,7 +105,7 @@ template <class Visit> void walk_grid(const Grid& grid, PlanarPoint a, PlanarPoi
     std::int32_t column = grid_cell(a.x, grid.px, grid.width), row = grid_cell(a.y, grid.py, grid.height);
     const bool down = b.y > a.y;
     const auto cross_horizontal = [&] {
-        visit(GridCrossing{false, along.next, column, along.at.position(grid.px * column, grid.px)});
+        visit(GridCrossing{false, along.next, column, along.at.position(grid.px * column, grid.px), down});
         row += along.step;
         along.advance();
     };
@@ -116,7 +117,7 @@ template <class Visit> void walk_grid(const Grid& grid, PlanarPoint a, PlanarPoi
             if (side == 0 ? vertical_first : (side > 0) != down) break;
             cross_horizontal();
         }
-        visit(GridCrossing{true, across.next, row, across.at.position(grid.py * row, grid.py)});
+        visit(GridCrossing{true, across.next, row, across.at.position(grid.py * row, grid.py), across.step > 0});
         column += across.step;
         across.advance();
     }

@@ -32,6 +32,8 @@ struct KnotLine {
     std::uint32_t vertex = 0, other = kNone; ///< other: kNone for an arm
     fetex::FeatureEdge edge{};               ///< of an arm
     fetex::FeaturePoint from, to;
+    fetex::FeaturePoint leaves, arrives; ///< tangents at both vertices; an arm's second is nothing
+    bool straight = true;
 };
 
 struct Knot {

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "compiler/feature_curves/curve_displacement.h"
+#include "compiler/feature_curves/curve_walk.h"
 #include "compiler/feature_curves/displacement.h"
 #include "compiler/feature_curves/edge_points.h"
+#include "compiler/feature_curves/fitting.h"
 #include "compiler/feature_curves/grid_walk.h"
 #include "compiler/feature_curves/knots.h"
 
@@ -29,34 +32,42 @@ constexpr auto kSegmentBetween = segment_table();
 struct Passage {
     FeatureEdge out{}, in{};
 };
-Passage passage(const GridCrossing& c, bool right, bool down) {
+Passage passage(const GridCrossing& c) {
     using enum FeatureEdge;
-    if (c.vertical) return right ? Passage{East, West} : Passage{West, East};
-    return down ? Passage{South, North} : Passage{North, South};
+    if (c.vertical) return c.increasing ? Passage{East, West} : Passage{West, East};
+    return c.increasing ? Passage{South, North} : Passage{North, South};
 }
 
 class Snapper {
   public:
-    Snapper(const LatticeLines& lines, std::uint32_t width, std::uint32_t height)
-        : lines_(lines), grid_(make_grid(lines.extent, width, height)), points_(width, height),
-          inside_(lines.vertices.size()), degree_(lines.vertices.size()) {
+    /// tangents: whether the texture is to have them.
+    Snapper(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height, bool tangents)
+        : curves_(curves), grid_(make_grid(curves.extent, width, height)), walk_(grid_), points_(width, height),
+          inside_(curves.vertices.size()), degree_(curves.vertices.size()) {
+        if (tangents) directions_ = EdgeDirections(width, height);
         out_.width = width, out_.height = height;
         out_.texels.resize(std::size_t{width} * height);
     }
 
-    SnappedCurves run() {
-        for (const auto& [a, b] : lines_.lines)
-            insert_line(a, b);
+    SnappedCurves run(unsigned threads) {
+        for (std::uint32_t k = 0; k < curves_.curves.size(); ++k)
+            insert_curve(k);
         insert_knots();
         settle_points();
-        out_.moves = measure_moves(out_, points_, knots_);
+        if (directions_.empty()) {
+            out_.moves = measure_moves(out_, points_, knots_);
+        } else {
+            settle_tangents();
+            fit_signatures(out_, threads);
+            out_.moves = measure_curve_moves({curves_, grid_, points_, knots_}, out_);
+        }
         count();
         return std::move(out_);
     }
 
   private:
     [[nodiscard]] PlanarPoint planar(std::uint32_t vertex) const {
-        const LatticePoint& p = lines_.vertices[vertex];
+        const LatticePoint& p = curves_.vertices[vertex];
         return {p.x * grid_.kx, p.y * grid_.ky};
     }
     [[nodiscard]] std::int32_t column(PlanarPoint p) const { return grid_cell(p.x, grid_.px, grid_.width); }
@@ -75,15 +86,42 @@ class Snapper {
         ++out_.stats.segments;
     }
 
-    /// The edge's points, unless it is off the canvas.
-    void cross(const GridCrossing& c) {
-        const std::uint32_t cells = c.vertical ? grid_.height : grid_.width;
-        if (c.cell < 0 || c.cell >= static_cast<std::int32_t>(cells)) return;
+    [[nodiscard]] bool on_canvas(const GridCrossing& c) const {
+        return c.cell >= 0 && c.cell < static_cast<std::int32_t>(c.vertical ? grid_.height : grid_.width);
+    }
+    /// Of the edge crossed, on the canvas.
+    template <class T> static T& at(EdgeGrid<T>& edges, const GridCrossing& c) {
         const auto line = static_cast<std::uint32_t>(c.line), cell = static_cast<std::uint32_t>(c.cell);
-        EdgePoint& p =
-            c.vertical ? points_.at(line, cell, FeatureEdge::West) : points_.at(cell, line, FeatureEdge::North);
+        return c.vertical ? edges.at(line, cell, FeatureEdge::West) : edges.at(cell, line, FeatureEdge::North);
+    }
+
+    void cross(const GridCrossing& c) {
+        if (!on_canvas(c)) return;
+        EdgePoint& p = at(points_, c);
         __builtin_prefetch(&p, 1);
         crossed_.push_back({&p, c.position});
+    }
+
+    /// Those of vertices on the edge are added with their knot, from all of its lines.
+    void add_direction(const GridCrossing& c, fetex::FeaturePoint direction) {
+        if (on_canvas(c)) at(directions_, c).add(direction.x, direction.y);
+    }
+
+    [[nodiscard]] bool lies_on(PlanarPoint p, const GridCrossing& c) const {
+        return c.vertical ? p.x == grid_.px * c.line : p.y == grid_.py * c.line;
+    }
+
+    [[nodiscard]] fetex::FeaturePoint texels(std::int64_t dx, std::int64_t dy) const {
+        return {static_cast<double>(dx) / static_cast<double>(grid_.px),
+                static_cast<double>(dy) / static_cast<double>(grid_.py)};
+    }
+
+    /// At one of its vertices, away from it.
+    [[nodiscard]] fetex::FeaturePoint tangent(const LatticeCurve& curve, std::uint32_t vertex) const {
+        const LatticePoint& from = curves_.vertices[vertex];
+        const LatticePoint& to =
+            curve.straight ? curves_.vertices[curve.a == vertex ? curve.b : curve.a] : curve.middle;
+        return texels((to.x - from.x) * grid_.kx, (to.y - from.y) * grid_.ky);
     }
 
     /// After the whole line, when memory had time to arrive: most of the time was spent waiting for it.
@@ -94,41 +132,92 @@ class Snapper {
         crossed_.clear();
     }
 
-    void insert_line(std::uint32_t a, std::uint32_t b) {
-        const PlanarPoint from = planar(a), to = planar(b);
-        std::int32_t i = column(from), j = row(from);
+    /// A curve on its way from texel to texel.
+    struct Way {
+        std::uint32_t curve = 0;
+        std::int32_t i = 0, j = 0;
         bool crossed = false;
         FeatureEdge in{};
         double position = 0;
-        walk_grid(grid_, from, to, [&](const GridCrossing& c) {
-            const Passage p = passage(c, to.x > from.x, to.y > from.y);
-            cross(c);
-            if (on_canvas(i, j)) {
-                if (crossed)
-                    insert(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
-                           kSegmentBetween[fetex::feature_edge_index(in)][fetex::feature_edge_index(p.out)]);
-                else
-                    add_arm(a, p.out, c.position);
-            }
-            in = p.in, position = c.position, crossed = true;
-            if (c.vertical)
-                i += to.x > from.x ? 1 : -1;
+    };
+
+    /// It crosses into the next texel.
+    void step(Way& way, const GridCrossing& c) {
+        const Passage p = passage(c);
+        const LatticeCurve& curve = curves_.curves[way.curve];
+        cross(c);
+        if (on_canvas(way.i, way.j)) {
+            if (way.crossed)
+                pass(way, p.out, curve.straight);
             else
-                j += to.y > from.y ? 1 : -1;
-        });
+                add_arm(way.curve, curve.a, p.out, c.position);
+        }
+        way.in = p.in, way.position = c.position, way.crossed = true;
+        (c.vertical ? way.i : way.j) += c.increasing ? 1 : -1;
+    }
+
+    /// Through a texel. A quadratic may leave it by the edge that it came in by, and is lost there.
+    void pass(const Way& way, FeatureEdge out, bool straight) {
+        const auto i = static_cast<std::uint32_t>(way.i), j = static_cast<std::uint32_t>(way.j);
+        if (way.in == out) {
+            texel(i, j).kinds |= kFolded;
+            ++out_.stats.folded;
+            return;
+        }
+        const std::uint32_t segment =
+            kSegmentBetween[fetex::feature_edge_index(way.in)][fetex::feature_edge_index(out)];
+        insert(i, j, segment);
+        if (!straight) texel(i, j).curved |= static_cast<SegmentSet>(1u << segment);
+    }
+
+    void insert_curve(std::uint32_t k) {
+        const LatticeCurve& curve = curves_.curves[k];
+        const PlanarPoint from = planar(curve.a), to = planar(curve.b);
+        Way way{k, column(from), row(from), false, {}, 0};
+        if (curve.straight) {
+            const fetex::FeaturePoint direction = texels(to.x - from.x, to.y - from.y);
+            walk_grid(grid_, from, to, [&](const GridCrossing& c) {
+                step(way, c);
+                if (!directions_.empty() && !lies_on(from, c) && !lies_on(to, c)) add_direction(c, direction);
+            });
+        } else {
+            for (const CurveCrossing& c : walk_.walk(quadratic(curve))) {
+                step(way, c.at);
+                if (c.t > 0 && c.t < 1) add_direction(c.at, {c.dx, c.dy});
+            }
+        }
         add_crossings();
-        ++degree_[a], ++degree_[b];
-        if (crossed) {
-            if (on_canvas(i, j)) add_arm(b, in, position);
-        } else if (on_canvas(i, j)) {
-            inside_.unite(a, b);
-            knot_lines_.push_back({a, b, {}, local(a), local(b)});
+        ++degree_[curve.a], ++degree_[curve.b];
+        if (way.crossed) {
+            if (on_canvas(way.i, way.j)) add_arm(k, curve.b, way.in, way.position);
+        } else if (on_canvas(way.i, way.j)) {
+            inside_.unite(curve.a, curve.b);
+            knot_lines_.push_back({curve.a,
+                                   curve.b,
+                                   {},
+                                   local(curve.a),
+                                   local(curve.b),
+                                   tangent(curve, curve.a),
+                                   tangent(curve, curve.b),
+                                   curve.straight});
         }
     }
 
-    void add_arm(std::uint32_t vertex, FeatureEdge e, double position) {
+    void add_arm(std::uint32_t k, std::uint32_t vertex, FeatureEdge e, double position) {
+        const LatticeCurve& curve = curves_.curves[k];
         arms_.push_back({vertex, e, position});
-        knot_lines_.push_back({vertex, kNone, e, local(vertex), fetex::feature_point(e, position)});
+        knot_lines_.push_back({vertex,
+                               kNone,
+                               e,
+                               local(vertex),
+                               fetex::feature_point(e, position),
+                               tangent(curve, vertex),
+                               {},
+                               curve.straight});
+    }
+
+    [[nodiscard]] PlanarQuadratic quadratic(const LatticeCurve& curve) const {
+        return {planar(curve.a), {curve.middle.x * grid_.kx, curve.middle.y * grid_.ky}, planar(curve.b)};
     }
 
     /// In its texel.
@@ -150,7 +239,7 @@ class Snapper {
 
     /// Everything by knot, knots by their first vertex.
     void insert_knots() {
-        for (std::uint32_t v = 0; v < lines_.vertices.size(); ++v)
+        for (std::uint32_t v = 0; v < curves_.vertices.size(); ++v)
             if (degree_[v] > 0 && on_canvas(column(planar(v)), row(planar(v)))) vertices_.push_back(knot_vertex(v));
         const auto knot_of = [&](const auto& part) { return inside_.find(part.vertex); };
         std::ranges::stable_sort(vertices_, {}, knot_of);
@@ -182,7 +271,30 @@ class Snapper {
             if (shape.segments >> k & 1u) insert(knot.i, knot.j, k);
         if (std::popcount(shape.edges) > 2) ++out_.stats.junctions;
         std::vector<FeatureEdge> ends = ends_of(knot, shape);
+        if (!directions_.empty()) {
+            if (is_curved(knot, shape)) texel(knot.i, knot.j).curved |= shape.segments;
+            add_end_directions(knot, ends);
+        }
         knots_.push_back({knot, std::move(shape), std::move(ends)});
+    }
+
+    /// Lines make straight segments, but one that goes round a corner.
+    static bool is_curved(const Knot& knot, const KnotShape& shape) {
+        if (!std::ranges::all_of(knot.lines, &KnotLine::straight)) return true;
+        const fetex::FeaturePoint d = knot.lines.front().leaves;
+        const auto along = [&](const KnotLine& l) { return d.x * l.leaves.y == d.y * l.leaves.x; };
+        return std::popcount(shape.edges) == 2 && !std::ranges::all_of(knot.lines, along);
+    }
+
+    void add_end_directions(const Knot& knot, const std::vector<FeatureEdge>& ends) {
+        const auto add = [&](std::uint32_t vertex, fetex::FeaturePoint direction) {
+            const FeatureEdge e = ends[index_in(knot, vertex)];
+            if (e != FeatureEdge{}) directions_.at(knot.i, knot.j, e).add(direction.x, direction.y);
+        };
+        for (const KnotLine& l : knot.lines) {
+            add(l.vertex, l.leaves);
+            if (l.other != kNone) add(l.other, l.arrives);
+        }
     }
 
     /// Means of the edges that segments end on.
@@ -200,9 +312,26 @@ class Snapper {
         }
     }
 
+    /// Mean directions; of a segment that the table made, the kind of those that it replaced.
+    void settle_tangents() {
+        const std::size_t corners = (std::size_t{grid_.width} + 1) * (std::size_t{grid_.height} + 1);
+        out_.north_angle.assign(corners, fetex::FeatureCrossing{}.angle);
+        out_.west_angle.assign(corners, fetex::FeatureCrossing{}.angle);
+        for (std::uint32_t j = 0; j < grid_.height; ++j) {
+            for (std::uint32_t i = 0; i < grid_.width; ++i) {
+                SnappedTexel& t = texel(i, j);
+                if ((t.curved & ~t.segments) != 0) t.curved |= static_cast<SegmentSet>(t.segments & ~t.inserted);
+                t.curved &= t.segments;
+                for (const FeatureEdge e : fetex::kFeatureEdges)
+                    if (edges_of(t.segments) >> fetex::feature_edge_index(e) & 1u)
+                        out_.angle(i, j, e) = directions_.at(i, j, e).angle();
+            }
+        }
+    }
+
     void count() {
         SnapStats& s = out_.stats;
-        s.lines = lines_.lines.size();
+        s.lines = curves_.curves.size();
         for (const SnappedTexel& t : out_.texels)
             if (t.inserted != t.segments)
                 s.rerouted +=
@@ -213,10 +342,12 @@ class Snapper {
         }
     }
 
-    const LatticeLines& lines_;
+    const LatticeCurves& curves_;
     Grid grid_;
+    CurveWalk walk_;
     EdgePoints points_;
-    UnionFind inside_; ///< vertices joined by lines that leave no texel
+    EdgeDirections directions_; ///< empty if everything is straight
+    UnionFind inside_;          ///< vertices joined by lines that leave no texel
     std::vector<std::uint32_t> degree_;
     std::vector<std::pair<EdgePoint*, double>> crossed_; ///< by the line being inserted
     std::vector<KnotVertex> vertices_;
@@ -242,7 +373,12 @@ bool SnappedCurves::is_used(std::uint32_t i, std::uint32_t j, FeatureEdge e) con
 }
 
 SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height) {
-    return Snapper(lines, width, height).run();
+    return Snapper(lattice_curves(lines), width, height, false).run(1);
+}
+
+SnappedCurves snap_quadratics(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height,
+                              unsigned threads) {
+    return Snapper(curves, width, height, true).run(threads);
 }
 
 fetex::FeatureCurvesTexture linear_texture(const SnappedCurves& curves, fetex::FeatureNumberFormat format,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Snapping (Parilov and Zorin 2008, §4): a network of lines becomes a valid configuration and signature for each
-/// texel, by inserting one segment after the other. README.md has the steps.
+/// Snapping (Parilov and Zorin 2008, §4): a network becomes a valid configuration and signature for each texel, by
+/// inserting one segment after the other; of quadratics, signatures that aren't valid are fitted. README.md has the
+/// steps.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "compiler/feature_curves/lattice_lines.h"
+#include "compiler/feature_curves/lattice_curves.h"
 #include "compiler/feature_curves/transformations.h"
 #include "compiler/result.h"
 
@@ -14,12 +15,14 @@ namespace fetexc {
 
 /// Why curves in a texel aren't where the input has them; bits of FeatureMove::kinds.
 enum FeatureMoveKind : std::uint8_t {
-    kEdgeMerged = 1,  ///< several points of an edge became one
-    kVertexCut = 2,   ///< a vertex inside the texel: a straight segment replaces the lines that meet there
-    kRerouted = 4,    ///< a segment became part of the others (the table)
-    kEndCut = 8,      ///< an end inside the texel: the curve ends on the boundary
-    kFolded = 16,     ///< lines that leave through the edge that they came in by
-    kLostInside = 32, ///< lines that touch no edge
+    kEdgeMerged = 1,     ///< several points of an edge became one
+    kVertexCut = 2,      ///< a vertex inside the texel: a straight segment replaces the lines that meet there
+    kRerouted = 4,       ///< a segment became part of the others (the table)
+    kEndCut = 8,         ///< an end inside the texel: the curve ends on the boundary
+    kFolded = 16,        ///< lines that leave through the edge that they came in by
+    kLostInside = 32,    ///< lines that touch no edge
+    kFitted = 64,        ///< points and tangents moved for a segment to be valid, here or beside
+    kStraightened = 128, ///< no valid quadratic was found: a segment is straight, and bends where it ends
 };
 
 /// A texel that isn't as the input has it.
@@ -36,11 +39,15 @@ struct SnapStats {
     std::uint64_t rerouted = 0;                           ///< segments that the table replaced
     std::uint64_t junctions = 0;                          ///< three and more ways out of a texel joined in it
     std::uint64_t ends_cut = 0, folded = 0, lost_inside = 0;
+    std::uint64_t curved = 0, invalid = 0; ///< segments that aren't straight, and those of them that weren't valid
+    std::uint64_t problems = 0, fitted = 0, straightened = 0; ///< local problems, solved ones, segments made straight
 };
 
 struct SnappedTexel {
     SegmentSet segments = 0; ///< a configuration
     SegmentSet inserted = 0; ///< what was inserted
+    SegmentSet curved = 0;   ///< of the segments: the others are straight
+    std::uint8_t kinds = 0;  ///< FeatureMoveKind, those that only quadratics have, and kFolded of one that turns inside
 };
 
 /// Positions of edges that no segment ends on are the default.
@@ -49,6 +56,7 @@ struct SnappedCurves {
     std::vector<SnappedTexel> texels; ///< row by row
     /// (width+1)·(height+1): of the north edge of texel (i,j), and of its west edge.
     std::vector<double> north, west;
+    std::vector<double> north_angle, west_angle; ///< the same of tangents, in [0, π); empty if everything is straight
     SnapStats stats;
     std::vector<FeatureMove> moves; ///< row by row
 
@@ -58,6 +66,15 @@ struct SnappedCurves {
     }
     [[nodiscard]] double& position(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
         return is_vertical(e) ? west[corner(i, j, e)] : north[corner(i, j, e)];
+    }
+    [[nodiscard]] double angle(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        return is_vertical(e) ? west_angle[corner(i, j, e)] : north_angle[corner(i, j, e)];
+    }
+    [[nodiscard]] double& angle(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
+        return is_vertical(e) ? west_angle[corner(i, j, e)] : north_angle[corner(i, j, e)];
+    }
+    [[nodiscard]] const SnappedTexel& texel(std::uint32_t i, std::uint32_t j) const {
+        return texels[std::size_t{j} * width + i];
     }
     /// A segment of the texel, or of the one across the edge, ends on it. Of (width, j) and (i, height): West, North.
     [[nodiscard]] bool is_used(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const;
@@ -74,6 +91,10 @@ struct SnappedCurves {
 
 /// Preconditions: 1 ≤ width, height ≤ 16384. The same result for the same input; one thread.
 SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height);
+
+/// Likewise; on `threads` threads (0: all), with the same result for any number.
+SnappedCurves snap_quadratics(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height,
+                              unsigned threads = 1);
 
 /// Warnings 5141 … 5143: what moved by more than kFeatureMoveTold, and what is missing.
 std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A network as lines and quadratics between points of the lattice, for snapping.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compiler/feature_curves/lattice_lines.h"
+
+namespace fetexc {
+
+/// Between two vertices, which differ.
+struct LatticeCurve {
+    std::uint32_t a = 0, b = 0;
+    LatticePoint middle; ///< the control point; nothing of a line
+    bool straight = true;
+};
+
+/// As LatticeLines. Quadratics aren't lines: their control points aren't on one.
+struct LatticeCurves {
+    Extent extent;
+    std::vector<LatticePoint> vertices;
+    std::vector<LatticeCurve> curves;
+
+    [[nodiscard]] bool linear() const;
+};
+
+LatticeCurves lattice_curves(const LatticeLines& lines);
+
+/// Cubics become quadratics within quadratic_tolerance, ends closer than kMergeDistance one vertex. Quadratics whose
+/// control points are on a line are the lines that they run through. Errors: 3001 (size), 1504 (too many quadratics).
+Result<LatticeCurves> lattice_curves(const Network& network);
+
+} // namespace fetexc

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/feature_curves/local_problem.h"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/error_budget.h"
+#include "compiler/feature_curves/plane.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::FeatureEdge;
+using fetex::FeaturePoint;
+using Jet = ceres::Jet<double, sqp::kMostVariables>;
+
+constexpr double kLeast = budget::kFeatureMargin, kMost = 1 - budget::kFeatureMargin;
+
+template <class T> T cross(const std::array<T, 2>& a, const std::array<T, 2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+template <class T> std::array<T, 2> operator-(const std::array<T, 2>& a, const std::array<T, 2>& b) {
+    return {a[0] - b[0], a[1] - b[1]};
+}
+
+std::array<Jet, sqp::kMostVariables> jets(const sqp::Vector& x) {
+    std::array<Jet, sqp::kMostVariables> out;
+    for (int k = 0; k < x.size(); ++k)
+        out[static_cast<std::size_t>(k)] = Jet(x[k], k);
+    return out;
+}
+
+template <class Visit> void for_each_end(SegmentSet set, FeatureEdge e, Visit&& visit) {
+    for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k) {
+        const fetex::FeatureSegment s = fetex::kFeatureSegments[k];
+        if ((set >> k & 1u) != 0 && (s.first == e || s.second == e)) visit(k, s.first == e ? s.second : s.first);
+    }
+}
+
+FeaturePoint direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// Into [0, π).
+double line_angle(double dx, double dy) {
+    const double a = std::atan2(dy, dx);
+    const double turned = a < 0 ? a + std::numbers::pi : a;
+    return turned >= std::numbers::pi ? 0 : turned;
+}
+
+/// Steps along the direction from a point on the texel's boundary for which it is inside by `margin`.
+struct Range {
+    double low = 0, high = 0;
+};
+Range range_inside(FeaturePoint from, FeaturePoint along, double margin) {
+    Range r{-4, 4};
+    const auto cut = [&](double base, double by) {
+        if (by == 0) {
+            if (base < margin || base > 1 - margin) r = {1, 0};
+            return;
+        }
+        const auto [near, far] = std::minmax({(margin - base) / by, (1 - margin - base) / by});
+        r = {std::max(r.low, near), std::min(r.high, far)};
+    };
+    cut(from.x, along.x), cut(from.y, along.y);
+    return r;
+}
+
+} // namespace
+
+std::optional<Beside> across(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, FeatureEdge e) {
+    using enum FeatureEdge;
+    switch (e) {
+    case North:
+        return j > 0 ? std::optional(Beside{i, j - 1, South}) : std::nullopt;
+    case East:
+        return i + 1 < curves.width ? std::optional(Beside{i + 1, j, West}) : std::nullopt;
+    case South:
+        return j + 1 < curves.height ? std::optional(Beside{i, j + 1, North}) : std::nullopt;
+    default:
+        return i > 0 ? std::optional(Beside{i - 1, j, East}) : std::nullopt;
+    }
+}
+
+StraightEnds straight_ends(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, FeatureEdge e) {
+    StraightEnds out;
+    bool differ = false;
+    const auto look = [&](std::uint32_t ti, std::uint32_t tj, FeatureEdge te) {
+        const SnappedTexel& t = curves.texel(ti, tj);
+        for_each_end(static_cast<SegmentSet>(t.segments & ~t.curved), te, [&](std::uint32_t, FeatureEdge other) {
+            const FeaturePoint a = fetex::feature_point(te, curves.position(ti, tj, te)),
+                               b = fetex::feature_point(other, curves.position(ti, tj, other));
+            // Of no length: a curve passes a corner, with one tangent on both edges.
+            const double angle = distance(a, b) > 0 ? line_angle(b.x - a.x, b.y - a.y) : curves.angle(ti, tj, te);
+            if (out.any && (!out.angle || std::abs(std::sin(angle - *out.angle)) > budget::kFeatureParallel))
+                differ = true;
+            out.any = true;
+            if (!out.angle) out.angle = angle;
+        });
+    };
+    look(i, j, e);
+    if (const auto beside = across(curves, i, j, e)) look(beside->i, beside->j, beside->edge);
+    if (differ) out.angle.reset();
+    return out;
+}
+
+LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j) : i_(i), j_(j) {
+    open_ = true;
+    const SegmentSet curved = curves.texel(i, j).curved;
+    for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
+        if (curved >> k & 1u) add_inner(curves, k);
+    for (std::size_t p = 0; p < points_.size(); ++p)
+        add_outer(curves, p);
+    add_tangencies();
+    // A segment without a point or a tangent that can change is what it is.
+    for (std::size_t s = 0; s < segments_.size() && open_; ++s) {
+        bool held = true, inner = false;
+        for (const Handle& h : handles_)
+            if (h.segment == s)
+                held = held && points_[h.point].at.variable[0] < 0 && points_[h.point].angle, inner = true;
+        if (inner && held && middle(s).variable[1] >= 0) open_ = false;
+    }
+}
+
+int LocalProblem::add_variable(double low, double high, double start) {
+    low_.push_back(low), high_.push_back(high), start_.push_back(std::clamp(start, low, high));
+    return static_cast<int>(start_.size()) - 1;
+}
+
+std::size_t LocalProblem::add_point(const SnappedCurves& curves, FeatureEdge e) {
+    for (std::size_t p = 0; p < points_.size(); ++p)
+        if (points_[p].edge == e) return p;
+    Point point;
+    point.edge = e;
+    const double position = curves.position(i_, j_, e);
+    const StraightEnds straight = straight_ends(curves, i_, j_, e);
+    if (straight.any) {
+        point.at.base = fetex::feature_point(e, position);
+        point.angle = straight.angle;
+    } else {
+        const FeaturePoint first = fetex::feature_point(e, 0), last = fetex::feature_point(e, 1);
+        point.at = {
+            first, {add_variable(kLeast, kMost, position), -1}, {FeaturePoint{last.x - first.x, last.y - first.y}, {}}};
+    }
+    points_.push_back(point);
+    return points_.size() - 1;
+}
+
+void LocalProblem::add_inner(const SnappedCurves& curves, std::uint32_t k) {
+    const fetex::FeatureSegment s = fetex::kFeatureSegments[k];
+    const std::size_t a = add_point(curves, s.first), b = add_point(curves, s.second);
+    const FeaturePoint start = shown_segment(curves, i_, j_, k).curve[1];
+    MovablePoint middle;
+    middle.variable = {add_variable(kLeast, kMost, start.x), add_variable(kLeast, kMost, start.y)};
+    middle.by = {FeaturePoint{1, 0}, FeaturePoint{0, 1}};
+    handles_.push_back({a, segments_.size()}), handles_.push_back({b, segments_.size()});
+    segments_.push_back({{points_[a].at, middle, points_[b].at}});
+}
+
+void LocalProblem::add_outer(const SnappedCurves& curves, std::size_t point) {
+    const auto beside = across(curves, i_, j_, points_[point].edge);
+    if (!beside) return;
+    const FeaturePoint shift{static_cast<double>(beside->i) - i_, static_cast<double>(beside->j) - j_};
+    for_each_end(curves.texel(beside->i, beside->j).curved, beside->edge, [&](std::uint32_t k, FeatureEdge far) {
+        const FeaturePoint from = fetex::feature_point(far, curves.position(beside->i, beside->j, far)),
+                           along = direction(curves.angle(beside->i, beside->j, far));
+        const ShownSegment now = shown_segment(curves, beside->i, beside->j, k);
+        const double start = (now.curve[1].x - from.x) * along.x + (now.curve[1].y - from.y) * along.y;
+        Range range = range_inside(from, along, budget::kFeatureMargin);
+        const bool valid = now.fault == SignatureFault::None;
+        if (range.low > range.high) range = valid ? Range{start, start} : Range{1, 0};
+        if (valid) range = {std::min(range.low, start), std::max(range.high, start)};
+        if (range.low > range.high) {
+            open_ = false;
+            return;
+        }
+        const bool known = now.fault != SignatureFault::NoMiddle && now.fault != SignatureFault::Outside;
+        MovablePoint middle;
+        middle.base = {from.x + shift.x, from.y + shift.y};
+        middle.variable[0] = add_variable(range.low, range.high, known ? start : (range.low + range.high) / 2);
+        middle.by[0] = along;
+        handles_.push_back({point, segments_.size()});
+        segments_.push_back({{points_[point].at, middle, {middle.base, {-1, -1}, {}}}});
+    });
+}
+
+void LocalProblem::add_tangencies() {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        std::optional<std::size_t> first;
+        for (const Handle& h : handles_) {
+            if (h.point != p) continue;
+            if (points_[p].angle || first) tangencies_.push_back({p, h.segment, first});
+            if (!points_[p].angle && !first) first = h.segment;
+        }
+    }
+}
+
+template <class T> T LocalProblem::tangency(const Tangency& t, const T* x) const {
+    const Point& point = points_[t.point];
+    const std::array<T, 2> p = point.at.at(x), handle = middle(t.segment).at(x) - p;
+    if (t.like) return cross(handle, middle(*t.like).at(x) - p);
+    const FeaturePoint d = direction(*point.angle);
+    return cross(handle, std::array<T, 2>{T(d.x), T(d.y)});
+}
+
+/// Twice the second difference: its square is Eq. 3.
+template <class T> std::array<T, 2> LocalProblem::bend(const Segment& s, const T* x) const {
+    const std::array<T, 2> a = s.points[0].at(x), b = s.points[1].at(x), c = s.points[2].at(x);
+    return {2.0 * (a[0] - 2.0 * b[0] + c[0]), 2.0 * (a[1] - 2.0 * b[1] + c[1])};
+}
+
+sqp::Vector LocalProblem::start() const {
+    return Eigen::Map<const Eigen::VectorXd>(start_.data(), static_cast<Eigen::Index>(start_.size()));
+}
+
+sqp::Task LocalProblem::task() const {
+    const auto n = static_cast<Eigen::Index>(start_.size());
+    sqp::Task task{*this,
+                   static_cast<int>(tangencies_.size()),
+                   sqp::Matrix::Zero(n, n),
+                   sqp::Vector::Zero(n),
+                   Eigen::Map<const Eigen::VectorXd>(low_.data(), n),
+                   Eigen::Map<const Eigen::VectorXd>(high_.data(), n)};
+    const auto x = jets(sqp::Vector::Zero(n));
+    for (const Segment& s : segments_) {
+        for (const Jet& r : bend(s, x.data())) {
+            task.hessian += 2 * r.v.head(n) * r.v.head(n).transpose();
+            task.gradient += 2 * r.a * r.v.head(n);
+        }
+    }
+    return task;
+}
+
+double LocalProblem::energy(const sqp::Vector& x) const {
+    double sum = 0;
+    for (const Segment& s : segments_)
+        for (const double r : bend(s, x.data()))
+            sum += r * r;
+    return sum;
+}
+
+void LocalProblem::constraints(const sqp::Vector& x, sqp::Values& values, sqp::Jacobian& jacobian) const {
+    const auto m = static_cast<Eigen::Index>(tangencies_.size());
+    values.resize(m), jacobian.resize(m, x.size());
+    const auto at = jets(x);
+    for (Eigen::Index k = 0; k < m; ++k) {
+        const Jet v = tangency(tangencies_[static_cast<std::size_t>(k)], at.data());
+        values[k] = v.a, jacobian.row(k) = v.v.head(x.size()).transpose();
+    }
+}
+
+void LocalProblem::add_curvature(const sqp::Values& weights, sqp::Matrix& to) const {
+    const Eigen::Index n = to.rows();
+    const auto x = jets(sqp::Vector::Zero(n));
+    for (std::size_t k = 0; k < tangencies_.size(); ++k) {
+        const Tangency& t = tangencies_[k];
+        if (!t.like) continue; // linear
+        // Both factors are linear.
+        const auto p = points_[t.point].at.at(x.data());
+        const auto a = middle(t.segment).at(x.data()) - p, b = middle(*t.like).at(x.data()) - p;
+        const auto both = [&](const Jet& f, const Jet& g) {
+            const sqp::Matrix product = f.v.head(n) * g.v.head(n).transpose();
+            return sqp::Matrix(product + product.transpose());
+        };
+        to += weights[static_cast<Eigen::Index>(k)] * (both(a[0], b[1]) - both(a[1], b[0]));
+    }
+}
+
+void LocalProblem::apply(const sqp::Vector& x, SnappedCurves& curves) const {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+        const Point& point = points_[p];
+        if (point.at.variable[0] >= 0) curves.position(i_, j_, point.edge) = x[point.at.variable[0]];
+        if (point.angle) {
+            curves.angle(i_, j_, point.edge) = *point.angle;
+            continue;
+        }
+        // The longest handle has the least error.
+        const std::array<double, 2> at = point.at.at(x.data());
+        std::array<double, 2> longest{};
+        for (const Handle& h : handles_) {
+            if (h.point != p) continue;
+            const std::array<double, 2> handle = middle(h.segment).at(x.data()) - at;
+            if (std::hypot(handle[0], handle[1]) > std::hypot(longest[0], longest[1])) longest = handle;
+        }
+        curves.angle(i_, j_, point.edge) = line_angle(longest[0], longest[1]);
+    }
+}
+
+} // namespace fetexc
