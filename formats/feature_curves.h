@@ -17,6 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "formats/fbt.h"
+#include "formats/silmap.h"
+
 namespace fetex {
 
 enum class FeatureEdge : std::uint8_t {
@@ -147,13 +150,33 @@ enum class FeatureNumberFormat : std::uint32_t {
     Bits16 = 2, ///< positions in steps of 2^-15, angles of π·2^-16, distances of the limit / 65535
 };
 
+/// What the base map and the profile are of, and so what is shown.
+enum class FeatureKind : std::uint32_t {
+    Color = 0,  ///< colours, premultiplied and sRGB-encoded
+    Normal = 1, ///< unit normals n, x right, y down, z out of the texture, as colours (n + 1) / 2 (feature_normal)
+    Height = 2, ///< heights in texels, as grey of height / height_scale; the base map's is its red channel
+};
+
+/// The base map's samples have the formats that bitmaps of silhouette-map textures have.
+using FeatureSampleFormat = SilmapSampleFormat;
+
+/// What there is at a distance from the curves. Between entries everything is linear.
+struct FeatureProfileEntry {
+    float height = 0;        ///< h, texels
+    float slope = 0;         ///< h'
+    float blend = 1;         ///< b, 0 … 1: how much the base map counts
+    std::uint32_t color = 0; ///< RGBA8, premultiplied
+    friend bool operator==(const FeatureProfileEntry&, const FeatureProfileEntry&) = default;
+};
+inline constexpr std::uint32_t kFeatureProfileMost = 4096; ///< entries
+
 /// Owning texture with feature curves. validate_feature_curves (formats/validate.h) checks the invariants.
 ///
 /// Signatures: (W+1)·(H+1) groups, row by row; that of texel (i,j) has the position and angle of its north edge and the
 /// position and angle of its west edge (linear: the two positions). Its east edge is the west one of texel (i+1,j), its
 /// south edge the north one of (i,j+1). Distances: (W+1)·(H+1), those of the texels' corners (i,j). That is five
-/// numbers a texel, three when linear (the paper, §6). Numbers are little-endian, of four bytes (float) or two, as in
-/// the file.
+/// numbers a texel, three when linear (the paper, §6). Gradients: pairs, of the same corners. Numbers are
+/// little-endian, of four bytes (float) or two, as in the file.
 struct FeatureCurvesTexture {
     std::uint32_t width = 0, height = 0; ///< texels, 1 … 16384
     FeatureNumberFormat format = FeatureNumberFormat::Float;
@@ -161,6 +184,16 @@ struct FeatureCurvesTexture {
     float distance_limit = 1;                         ///< texels, > 0; distances beyond are this
     std::vector<FeatureConfiguration> configurations; ///< width·height, row by row
     std::vector<std::uint8_t> signatures, distances;
+
+    FeatureKind kind = FeatureKind::Color;
+    FeatureSampleFormat base_format = FeatureSampleFormat::Rgba8;
+    float height_scale = 1;                   ///< texels, > 0: the height that 1 in the base map stands for; else 1
+    std::vector<std::uint8_t> gradients;      ///< empty (not with normals), or x and y at each corner, −1 … 1
+    std::vector<std::uint32_t> base;          ///< one sample for everywhere, or one for each corner, packed, row by row
+    std::vector<FeatureProfileEntry> profile; ///< 2 … kFeatureProfileMost, evenly from distance 0 to the limit
+    /// Empty, or levels 1 … n of what is shown (fbt_mip_level gives their sizes and where they begin), RGBA8, row by
+    /// row.
+    std::vector<std::uint32_t> mips;
 };
 
 /// Bytes of a number, and numbers of a texel's signature.
@@ -170,19 +203,20 @@ inline std::uint32_t feature_signature_numbers(bool linear) { return linear ? 2 
 inline std::uint64_t feature_corner_count(const FeatureCurvesTexture& t) {
     return (std::uint64_t{t.width} + 1) * (std::uint64_t{t.height} + 1);
 }
-/// Bytes of configurations, signatures and distances.
+/// Bytes of all arrays, as the file has them.
 std::uint64_t feature_gpu_bytes(const FeatureCurvesTexture& t);
 
-/// Size and default content: no curve, every distance the limit.
+/// Size and default content: no curve, every distance the limit, no gradients; colours, white everywhere, a profile
+/// that changes nothing.
 FeatureCurvesTexture feature_empty_texture(std::uint32_t width, std::uint32_t height, FeatureNumberFormat format,
                                            bool linear, float distance_limit);
 
 /// What a number means.
-enum class FeatureQuantity { Position, Angle, Distance };
-/// The nearest number, ties up (floats: to even). Positions are clamped to 0 … 1, distances to 0 … limit; angles are
-/// taken modulo π.
+enum class FeatureQuantity { Position, Angle, Distance, Gradient };
+/// The nearest number, ties up (floats: to even). Positions are clamped to 0 … 1, distances to 0 … limit, gradients to
+/// −1 … 1; angles are taken modulo π.
 std::uint32_t feature_pack_number(FeatureNumberFormat format, FeatureQuantity quantity, double value, float limit);
-/// Precondition: no float or half that is negative, infinite or NaN.
+/// Precondition: no float or half that is infinite or NaN, or negative but for a gradient.
 double feature_number(FeatureNumberFormat format, FeatureQuantity quantity, std::uint32_t packed, float limit);
 
 /// Of a texel; edges by feature_edge_index.
@@ -194,5 +228,28 @@ void feature_set_crossing(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_
 /// Texels; at corner (i,j), 0 … W by 0 … H.
 double feature_distance(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);
 void feature_set_distance(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j, double distance);
+
+/// Of the distance, per texel, x right and y down.
+struct FeatureVector {
+    double x = 0, y = 0;
+};
+/// At corner (i,j); 0 without gradients.
+FeatureVector feature_gradient(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);
+/// The first makes room for all of them, 0 elsewhere.
+void feature_set_gradient(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j, const FeatureVector& gradient);
+
+/// Of the base map at corner (i,j), or the sample for everywhere.
+FbtColor feature_base(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);
+/// What a base map's channel n, 0 … 1, stands for in a normal: n·factor − 1, clamped to −1 … 1; 0 is one of the
+/// format's numbers, 127, 32767 or a half of 1/2.
+double feature_normal_factor(FeatureSampleFormat format);
+
+/// The profile between its entries; channels of the colour 0 … 1.
+struct FeatureProfile {
+    double height = 0, slope = 0, blend = 1;
+    FbtColor color;
+};
+/// distance: less than 0 and more than the limit count as these. Precondition: the profile has two entries.
+FeatureProfile feature_profile(const FeatureCurvesTexture& t, double distance);
 
 } // namespace fetex

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// The numbers of signatures and distances, and where they are.
+/// The numbers of signatures, distances and gradients, and where they are.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -19,6 +19,8 @@ double step_of(FeatureQuantity quantity, float limit) {
         return 0x1p-15;
     case FeatureQuantity::Angle:
         return std::numbers::pi / 0x1p16;
+    case FeatureQuantity::Gradient:
+        return 1.0 / 32767;
     default:
         return double{limit} / 65535;
     }
@@ -32,6 +34,8 @@ double in_range(FeatureQuantity quantity, double v, float limit) {
         const double rest = std::fmod(v, std::numbers::pi);
         return rest < 0 ? std::max(rest + std::numbers::pi, 0.0) : rest;
     }
+    case FeatureQuantity::Gradient:
+        return std::clamp(v, -1.0, 1.0);
     default:
         return std::clamp(v, 0.0, double{limit});
     }
@@ -60,20 +64,18 @@ std::uint64_t position_number(const FeatureCurvesTexture& t, std::uint32_t i, st
 
 } // namespace
 
-std::uint64_t feature_gpu_bytes(const FeatureCurvesTexture& t) {
-    return 2 * std::uint64_t{t.configurations.size()} + t.signatures.size() + t.distances.size();
-}
+constexpr std::uint32_t kHalfSign = 0x8000;
 
 std::uint32_t feature_pack_number(FeatureNumberFormat format, FeatureQuantity quantity, double value, float limit) {
     const double v = in_range(quantity, value, limit);
     if (format == FeatureNumberFormat::Bits16) {
         const double steps = std::floor(v / step_of(quantity, limit) + 0.5);
-        // Angles: what rounds up to π is 0.
-        return static_cast<std::uint32_t>(steps) & 0xffffu;
+        // Angles: what rounds up to π is 0. Gradients: two's complement.
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(steps)) & 0xffffu;
     }
     // The floats and halves next to π are above it.
     if (format == FeatureNumberFormat::Half) {
-        const std::uint32_t half = fbt_to_half(v);
+        const std::uint32_t half = fbt_to_half(std::abs(v)) | (v < 0 ? kHalfSign : 0);
         return quantity == FeatureQuantity::Angle && fbt_half_value(half) >= std::numbers::pi ? 0 : half;
     }
     const auto single = static_cast<float>(v);
@@ -81,8 +83,14 @@ std::uint32_t feature_pack_number(FeatureNumberFormat format, FeatureQuantity qu
 }
 
 double feature_number(FeatureNumberFormat format, FeatureQuantity quantity, std::uint32_t packed, float limit) {
-    if (format == FeatureNumberFormat::Bits16) return packed * step_of(quantity, limit);
-    return format == FeatureNumberFormat::Half ? fbt_half_value(packed) : double{std::bit_cast<float>(packed)};
+    if (format == FeatureNumberFormat::Float) return double{std::bit_cast<float>(packed)};
+    if (format == FeatureNumberFormat::Half) {
+        const double v = fbt_half_value(packed & ~kHalfSign);
+        return packed & kHalfSign ? -v : v;
+    }
+    const std::int32_t steps =
+        quantity == FeatureQuantity::Gradient ? static_cast<std::int16_t>(packed) : static_cast<std::int32_t>(packed);
+    return steps * step_of(quantity, limit);
 }
 
 FeatureCurvesTexture feature_empty_texture(std::uint32_t width, std::uint32_t height, FeatureNumberFormat format,
@@ -92,6 +100,8 @@ FeatureCurvesTexture feature_empty_texture(std::uint32_t width, std::uint32_t he
     t.configurations.resize(std::uint64_t{width} * height);
     t.signatures.resize(feature_corner_count(t) * feature_signature_numbers(linear) * feature_number_bytes(format));
     t.distances.resize(feature_corner_count(t) * feature_number_bytes(format));
+    t.base = {0xffffffffu};
+    t.profile.resize(2);
     for (std::uint32_t j = 0; j <= height; ++j) {
         for (std::uint32_t i = 0; i <= width; ++i) {
             feature_set_crossing(t, i, j, FeatureEdge::North, {});
@@ -133,6 +143,24 @@ double feature_distance(const FeatureCurvesTexture& t, std::uint32_t i, std::uin
 void feature_set_distance(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j, double distance) {
     store(t, t.distances, corner(t, i, j),
           feature_pack_number(t.format, FeatureQuantity::Distance, distance, t.distance_limit));
+}
+
+FeatureVector feature_gradient(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j) {
+    if (t.gradients.empty()) return {};
+    const std::uint64_t n = 2 * corner(t, i, j);
+    const auto value = [&](std::uint64_t k) {
+        return feature_number(t.format, FeatureQuantity::Gradient, load(t, t.gradients, k), t.distance_limit);
+    };
+    return {value(n), value(n + 1)};
+}
+
+void feature_set_gradient(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j, const FeatureVector& gradient) {
+    // 0 is 0 in every format.
+    if (t.gradients.empty()) t.gradients.resize(2 * feature_corner_count(t) * feature_number_bytes(t.format));
+    const std::uint64_t n = 2 * corner(t, i, j);
+    store(t, t.gradients, n, feature_pack_number(t.format, FeatureQuantity::Gradient, gradient.x, t.distance_limit));
+    store(t, t.gradients, n + 1,
+          feature_pack_number(t.format, FeatureQuantity::Gradient, gradient.y, t.distance_limit));
 }
 
 } // namespace fetex

@@ -4,6 +4,7 @@
 #include "formats/bilevel_chunks.h"
 #include "formats/fbt_mip.h"
 #include "formats/fbt_samples.h"
+#include "formats/feature_curve_chunks.h"
 #include "formats/pinchmap_chunks.h"
 #include "formats/silmap_chunks.h"
 #include "formats/validate.h"
@@ -19,7 +20,7 @@ constexpr std::uint32_t kFlagBands = 1, kFlagCorners = 2, kFlagTranslucent = 4, 
                         kFlagsKnown = 31;
 /// As write_file numbers them.
 constexpr std::uint8_t kFbtRepresentation = 0, kBilevelRepresentation = 1, kSilmapRepresentation = 2,
-                       kPinchmapRepresentation = 3;
+                       kPinchmapRepresentation = 3, kFeatureCurvesRepresentation = 4;
 
 using Words = std::vector<std::uint32_t>;
 
@@ -251,12 +252,13 @@ class Reader {
         if (findings_.size() < limit_) read_bilevel_chunks();
         if (findings_.size() < limit_) read_silmap_chunks();
         if (findings_.size() < limit_) read_pinchmap_chunks();
+        if (findings_.size() < limit_) read_feature_curves_chunks();
     }
     std::vector<Finding> take() { return std::move(findings_); }
 
   private:
-    /// Level 0 of the known chunks, and any of FBTM, BLVM, SLMM and PNCM; of each kind the representation of the lowest
-    /// number is the one that is read.
+    /// Level 0 of the known chunks, and any of FBTM, BLVM, SLMM, PNCM and FCVM; of each kind the representation of the
+    /// lowest number is the one that is read.
     std::optional<Finding> sort_in(const ChunkView& chunk) {
         const bool fbt = chunk.type == kFbtHeader || chunk.type == kFbtTexels || chunk.type == kFbtCorners ||
                          chunk.type == kFbtRecords;
@@ -276,6 +278,8 @@ class Reader {
             silmaps_[chunk.representation].add(chunk);
         } else if (is_pinchmap_chunk(chunk)) {
             pinchmaps_[chunk.representation].add(chunk);
+        } else if (is_feature_curves_chunk(chunk)) {
+            feature_curves_[chunk.representation].add(chunk);
         } else if ((chunk.flags & kChunkCritical) != 0) {
             return Finding{FindingCode::UnknownCriticalChunk, chunk.offset,
                            "chunk " + fourcc_text(chunk.type) + " is critical and this reader doesn't know it"};
@@ -314,6 +318,10 @@ class Reader {
         for (const auto& [number, chunks] : pinchmaps_)
             if (fbts_.contains(number) || bilevels_.contains(number) || silmaps_.contains(number))
                 return report(number, "a pinchmap and something else");
+        for (const auto& [number, chunks] : feature_curves_)
+            if (fbts_.contains(number) || bilevels_.contains(number) || silmaps_.contains(number) ||
+                pinchmaps_.contains(number))
+                return report(number, "a texture with feature curves and something else");
     }
 
     void read_bilevel_chunks() {
@@ -358,6 +366,22 @@ class Reader {
         add(std::move(found));
     }
 
+    void read_feature_curves_chunks() {
+        for (const auto& [representation, chunks] : feature_curves_) {
+            if (!chunks.complete())
+                return findings_.push_back(
+                    {FindingCode::MissingChunk, 0,
+                     "representation " + std::to_string(representation) +
+                         ": a texture with feature curves needs FCVH, FCVC, FCVS, FCVD, FCVB and FCVP"});
+        }
+        if (feature_curves_.empty()) return;
+        FeatureCurvesTexture texture;
+        std::vector<Finding> found =
+            read_feature_curves(texture, feature_curves_.begin()->second, limit_ - findings_.size());
+        if (found.empty()) out_.feature_curves = std::move(texture);
+        add(std::move(found));
+    }
+
     void add(std::vector<Finding> found) {
         findings_.insert(findings_.end(), std::move_iterator(found.begin()), std::move_iterator(found.end()));
     }
@@ -369,6 +393,7 @@ class Reader {
     std::map<std::uint8_t, BilevelChunks> bilevels_;
     std::map<std::uint8_t, SilmapChunks> silmaps_;
     std::map<std::uint8_t, PinchmapChunks> pinchmaps_;
+    std::map<std::uint8_t, FeatureCurvesChunks> feature_curves_;
     std::vector<Finding> findings_;
 };
 
@@ -395,6 +420,9 @@ std::vector<std::uint8_t> write_file(const FetexFile& file) {
     if (file.pinchmap)
         append_pinchmap_chunks(chunks, *file.pinchmap, kPinchmapRepresentation,
                                !file.fbt && !file.bilevel && !file.silmap, payloads);
+    if (file.feature_curves)
+        append_feature_curves_chunks(chunks, *file.feature_curves, kFeatureCurvesRepresentation,
+                                     !file.fbt && !file.bilevel && !file.silmap && !file.pinchmap, payloads);
     return write_container_of_views(chunks);
 }
 

@@ -11,6 +11,7 @@
 #include "formats/bilevel.h"
 #include "formats/container.h"
 #include "formats/fbt.h"
+#include "formats/feature_curves.h"
 #include "formats/pinchmap.h"
 #include "formats/silmap.h"
 
@@ -25,11 +26,12 @@ struct FetexFile {
     std::optional<BilevelTexture> bilevel = {};
     std::optional<SilmapTexture> silmap = {};
     std::optional<PinchmapTexture> pinchmap = {};
+    std::optional<FeatureCurvesTexture> feature_curves = {};
 };
 
 /// The file's bytes, the same for the same content. Bytes that aren't UTF-8 in metadata become U+FFFD; empty keys are
 /// left out. Preconditions: fbt passes validate_fbt, bilevel validate_bilevel, silmap
-/// validate_silmap, pinchmap validate_pinchmap.
+/// validate_silmap, pinchmap validate_pinchmap, feature_curves validate_feature_curves.
 std::vector<std::uint8_t> write_file(const FetexFile& file);
 
 /// Reads and validates everything; the first finding, or nullopt and a complete `out`. Unknown ancillary chunks are

@@ -27,19 +27,22 @@ enum class FindingCode : std::uint16_t {
     BadLength = 115, ///< stated length isn't the end of the last chunk
 
     UnknownCriticalChunk = 201,
-    BadMetadata = 202,      ///< META: counts, lengths, UTF-8, order of keys
-    MissingChunk = 203,     ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
-                            ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round;
-                            ///< likewise SLMH, SLMC, SLMS, SLMM; likewise PNCH, PNCD, PNCS, PNCM
-    BadFbtHeader = 204,     ///< FBTH: length, reserved words, flags
-    FbtSizeMismatch = 205,  ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
-    BadBilevelHeader = 206, ///< BLVH: length, dimensions, rule, reserved words
+    BadMetadata = 202,  ///< META: counts, lengths, UTF-8, order of keys
+    MissingChunk = 203, ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
+                        ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round;
+                        ///< likewise SLMH, SLMC, SLMS, SLMM; likewise PNCH, PNCD, PNCS, PNCM; likewise FCVH, FCVC,
+                        ///< FCVS, FCVD, FCVB, FCVP, FCVM; FCVG that FCVH doesn't ask for, or the other way round
+    BadFbtHeader = 204,         ///< FBTH: length, reserved words, flags
+    FbtSizeMismatch = 205,      ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
+    BadBilevelHeader = 206,     ///< BLVH: length, dimensions, rule, reserved words
     BilevelSizeMismatch = 207,  ///< BLVT, BLVI or a level of BLVM has not the length that BLVH asks for
     RepresentationKinds = 208,  ///< one number has chunks of two representations
     BadSilmapHeader = 209,      ///< SLMH: length, dimensions, formats, reserved words
     SilmapSizeMismatch = 210,   ///< SLMC, SLMS or a level of SLMM has not the length that SLMH asks for
     BadPinchmapHeader = 211,    ///< PNCH: length, dimensions, formats, flags, line, reserved words
     PinchmapSizeMismatch = 212, ///< PNCD, PNCS or a level of PNCM has not the length that PNCH asks for
+    BadFeatureHeader = 213,     ///< FCVH: length, dimensions, formats, flags, numbers, reserved words
+    FeatureSizeMismatch = 214,  ///< another chunk FCV… has not the length that FCVH asks for
 
     FbtDimensions = 1001,        ///< width, height 1 … 16384; lengths of the arrays
     FbtReservedBits = 1003,      ///< reserved bits of a texel or entry; a solid texel's colour that isn't opaque
@@ -81,11 +84,15 @@ enum class FindingCode : std::uint16_t {
                               ///< isn't from the side -1 to the side +1
 
     FeatureDimensions = 5001, ///< width, height 1 … 16384; lengths of the arrays
-    FeatureFormat = 5002,     ///< unknown number format; limit of distances
+    FeatureFormat = 5002,     ///< unknown number format, sample format or kind; limit of distances, scale of heights
     FeatureBadTexel = 5003,   ///< not a valid configuration; a straight bit in a linear texture
-    FeatureNumber = 5004,     ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit
-    FeatureUnusedEdge = 5005, ///< an edge that no segment ends on hasn't the default position and angle
-    FeatureNoCurve = 5006,    ///< a segment that isn't straight, and whose tangents don't meet in the texel
+    FeatureNumber = 5004, ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit, gradient
+                          ///< outside −1 … 1
+    FeatureUnusedEdge = 5005,       ///< an edge that no segment ends on hasn't the default position and angle
+    FeatureNoCurve = 5006,          ///< a segment that isn't straight, and whose tangents don't meet in the texel
+    FeatureNotPremultiplied = 5007, ///< a colour channel exceeds alpha
+    FeatureSampleValue = 5008,      ///< as SilmapSampleValue
+    FeatureProfileValue = 5009,     ///< a height or slope beyond ±65504, a blend outside 0 … 1
 };
 
 /// One finding. offset: bytes from the start of the file, or, from validate_fbt and the like, of the part that the

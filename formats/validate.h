@@ -48,8 +48,8 @@ inline constexpr std::uint32_t kPinchmapMaxScale = 14;
 std::vector<Finding> validate_pinchmap(const PinchmapTexture& texture, std::size_t limit = 64);
 inline constexpr std::uint32_t kFeatureCurvesMaxSide = 16384;
 
-/// Findings, at most `limit`; offsets are bytes from the start of the header, the configurations, the signatures or the
-/// distances, as the message says.
+/// Findings, at most `limit`; offsets are bytes from the start of the header, the configurations, the signatures, the
+/// distances, the gradients, the base map as the file has it, the profile or the mips, as the message says.
 std::vector<Finding> validate_feature_curves(const FeatureCurvesTexture& texture, std::size_t limit = 64);
 
 } // namespace fetex

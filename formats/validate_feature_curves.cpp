@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "formats/bitmap_samples.h"
 #include "formats/bytes.h"
+#include "formats/fbt_mip.h"
 #include "formats/fbt_samples.h"
 #include "formats/feature_curve_geometry.h"
 #include "formats/validate.h"
@@ -22,11 +25,23 @@ const char* wrong_size(const FeatureCurvesTexture& t) {
     const std::uint64_t bytes = feature_corner_count(t) * feature_number_bytes(t.format);
     if (t.signatures.size() != bytes * feature_signature_numbers(t.linear) || t.distances.size() != bytes)
         return "signatures or distances aren't those of (width+1)·(height+1) corners";
+    if (!t.gradients.empty() && t.gradients.size() != 2 * bytes) return "the gradients aren't those of all corners";
+    if (t.gradients.empty() && t.kind == FeatureKind::Normal) return "normals need gradients";
+    const std::uint32_t words = fbt_sample_words(silmap_fbt_format(t.base_format));
+    if (t.base.size() != words && t.base.size() != feature_corner_count(t) * words)
+        return "the base map is neither one sample nor those of all corners";
+    if (t.profile.size() < 2 || t.profile.size() > kFeatureProfileMost) return "the profile hasn't 2 … 4096 entries";
+    if (!t.mips.empty() && t.mips.size() != fbt_mip_samples(t.width, t.height))
+        return "the mips are neither empty nor all levels";
     return nullptr;
 }
 
+bool number_above_zero(float v) { return v > 0 && v <= kFbtMaxHalf; }
+
 bool wrong_header(const FeatureCurvesTexture& t) {
-    return t.format > FeatureNumberFormat::Bits16 || !(t.distance_limit > 0) || t.distance_limit > kFbtMaxHalf;
+    return t.format > FeatureNumberFormat::Bits16 || t.kind > FeatureKind::Height ||
+           t.base_format > FeatureSampleFormat::Rgb8 || !number_above_zero(t.distance_limit) ||
+           !number_above_zero(t.height_scale) || (t.kind != FeatureKind::Height && t.height_scale != 1);
 }
 
 /// What the limit of distances is in the texture's format.
@@ -36,7 +51,20 @@ double largest_distance(const FeatureCurvesTexture& t) {
                           feature_pack_number(t.format, FeatureQuantity::Distance, limit, limit), limit);
 }
 
+/// A float, half or 16 bits of −1 … 1.
+bool gradient_in_range(FeatureNumberFormat format, std::uint32_t packed) {
+    switch (format) {
+    case FeatureNumberFormat::Float:
+        return (packed & 0x7fffffffu) <= std::bit_cast<std::uint32_t>(1.0f);
+    case FeatureNumberFormat::Half:
+        return (packed & 0x7fffu) <= kFbtHalfOne;
+    default:
+        return packed != 0x8000u;
+    }
+}
+
 bool number_in_range(const FeatureCurvesTexture& t, FeatureQuantity quantity, std::uint32_t packed) {
+    if (quantity == FeatureQuantity::Gradient) return gradient_in_range(t.format, packed);
     if (t.format == FeatureNumberFormat::Half && packed >= kFbtHalfInfinity) return false;
     // Floats without a sign order as integers do.
     if (t.format == FeatureNumberFormat::Float && packed >= std::bit_cast<std::uint32_t>(INFINITY)) return false;
@@ -54,6 +82,10 @@ class Check {
             return !t_.linear && n % 2 == 1 ? FeatureQuantity::Angle : FeatureQuantity::Position;
         });
         numbers(t_.distances, "distances", [](std::uint64_t) { return FeatureQuantity::Distance; });
+        numbers(t_.gradients, "gradients", [](std::uint64_t) { return FeatureQuantity::Gradient; });
+        samples(t_.base, t_.base_format, "base");
+        samples(t_.mips, FeatureSampleFormat::Rgba8, "mips");
+        profile();
         configurations();
         if (!findings_.empty()) return std::move(findings_);
         unused_edges();
@@ -73,6 +105,31 @@ class Check {
                 size == 4 ? load_le<std::uint32_t>(bytes, n * size) : load_le<std::uint16_t>(bytes, n * size);
             if (!number_in_range(t_, quantity_of(n), packed))
                 add(FindingCode::FeatureNumber, n * size, part + ": a number outside its range");
+        }
+    }
+
+    void samples(std::span<const std::uint32_t> words, FeatureSampleFormat format, const std::string& part) {
+        const std::size_t step = fbt_sample_words(silmap_fbt_format(format));
+        for (std::size_t k = 0; k < words.size(); k += step) {
+            const SampleFault fault = bitmap_sample_fault(&words[k], format);
+            if (fault == SampleFault::None) continue;
+            add(fault == SampleFault::NotPremultiplied ? FindingCode::FeatureNotPremultiplied
+                                                       : FindingCode::FeatureSampleValue,
+                k / step * bitmap_sample_bytes(format), part + sample_fault_text(fault));
+        }
+    }
+
+    void profile() {
+        for (std::size_t k = 0; k < t_.profile.size(); ++k) {
+            const FeatureProfileEntry& e = t_.profile[k];
+            const std::uint64_t offset = k * sizeof(FeatureProfileEntry);
+            const bool in_range =
+                std::abs(e.height) <= kFbtMaxHalf && std::abs(e.slope) <= kFbtMaxHalf && e.blend >= 0 && e.blend <= 1;
+            if (!in_range)
+                add(FindingCode::FeatureProfileValue, offset, "profile: a height, slope or blend outside its range");
+            if (bitmap_sample_fault(&e.color, FeatureSampleFormat::Rgba8) != SampleFault::None)
+                add(FindingCode::FeatureNotPremultiplied, offset + offsetof(FeatureProfileEntry, color),
+                    "profile: a colour channel exceeds alpha");
         }
     }
 
@@ -130,7 +187,8 @@ class Check {
 std::vector<Finding> validate_feature_curves(const FeatureCurvesTexture& texture, std::size_t limit) {
     if (wrong_header(texture))
         return {{FindingCode::FeatureFormat, 0,
-                 "header: unknown number format, or a limit of distances outside 0 … 65504"}};
+                 "header: unknown number format, sample format or kind, or a limit of distances or scale of heights "
+                 "outside 0 … 65504"}};
     if (const char* wrong = wrong_size(texture))
         return {{FindingCode::FeatureDimensions, 0, std::string("header: ") + wrong}};
     return Check(texture, std::max<std::size_t>(limit, 1)).run();

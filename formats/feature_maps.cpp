@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// Base map and profile of a texture with feature curves.
+#include <algorithm>
+
+#include "formats/bitmap_samples.h"
+#include "formats/fbt_samples.h"
+#include "formats/feature_curves.h"
+#include "formats/interpolation.h"
+
+namespace fetex {
+
+std::uint64_t feature_gpu_bytes(const FeatureCurvesTexture& t) {
+    const std::uint64_t samples = t.base.size() / fbt_sample_words(silmap_fbt_format(t.base_format));
+    return 2 * std::uint64_t{t.configurations.size()} + t.signatures.size() + t.distances.size() + t.gradients.size() +
+           samples * bitmap_sample_bytes(t.base_format) + t.profile.size() * sizeof(FeatureProfileEntry) +
+           4 * std::uint64_t{t.mips.size()};
+}
+
+FbtColor feature_base(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j) {
+    const FbtSampleFormat format = silmap_fbt_format(t.base_format);
+    const std::uint32_t words = fbt_sample_words(format);
+    const std::uint64_t n = t.base.size() == words ? 0 : std::uint64_t{j} * (std::uint64_t{t.width} + 1) + i;
+    const auto c = fbt_sample_channels(&t.base[n * words], format);
+    const double unit = fbt_sample_unit(format);
+    return {c[0] / unit, c[1] / unit, c[2] / unit, c[3] / unit};
+}
+
+double feature_normal_factor(FeatureSampleFormat format) {
+    switch (format) {
+    case FeatureSampleFormat::Rgba16:
+        return 65535.0 / 32767;
+    case FeatureSampleFormat::Rgba16F:
+        return 2;
+    default:
+        return 255.0 / 127;
+    }
+}
+
+FeatureProfile feature_profile(const FeatureCurvesTexture& t, double distance) {
+    const double last = static_cast<double>(t.profile.size() - 1), at = clamp_to(distance / t.distance_limit, 1) * last;
+    const std::size_t k = std::min(static_cast<std::size_t>(at), t.profile.size() - 2);
+    const double part = at - static_cast<double>(k);
+    const FeatureProfileEntry &a = t.profile[k], &b = t.profile[k + 1];
+    const auto between = [&](double from, double to) { return from + part * (to - from); };
+    return {between(a.height, b.height), between(a.slope, b.slope), between(a.blend, b.blend),
+            mix(color_of(a.color), color_of(b.color), part)};
+}
+
+} // namespace fetex
