@@ -70,11 +70,11 @@ void append_findings(const fetexc_svg_view& view, std::vector<Diagnostic>& out) 
 
 namespace {
 
-Result<Document> load_document(std::span<const std::uint8_t> bytes, const SvgOptions& options, bool centre_lines,
+Result<Document> load_document(std::span<const std::uint8_t> bytes, const SvgOptions& options, std::uint32_t centre_lines,
                                std::vector<Diagnostic>& diagnostics) {
     OptionStrings strings;
     fetexc_svg_options c_options = to_c(options, strings);
-    c_options.centre_lines = centre_lines ? 1 : 0;
+    c_options.centre_lines = centre_lines;
     fetexc_svg_error error{};
     Document document(fetexc_svg_load(bytes.data(), bytes.size(), &c_options, &error));
     if (!document) return to_error(error);
@@ -86,14 +86,15 @@ Result<Document> load_document(std::span<const std::uint8_t> bytes, const SvgOpt
 
 Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& options,
                        std::vector<Diagnostic>& diagnostics) {
-    const Result<Document> document = load_document(bytes, options, false, diagnostics);
+    const Result<Document> document = load_document(bytes, options, 0, diagnostics);
     if (!document) return document.error();
     return svg::to_scene(*fetexc_svg_get(document.value().get()), options.cull, diagnostics);
 }
 
 Result<FeatureCurves> load_svg_features(std::span<const std::uint8_t> bytes, const SvgOptions& options,
-                                        std::vector<Diagnostic>& diagnostics) {
-    const Result<Document> document = load_document(bytes, options, true, diagnostics);
+                                        std::vector<Diagnostic>& diagnostics, SvgCurves which) {
+    const std::uint32_t centre_lines = which == SvgCurves::Edges ? 0 : which == SvgCurves::Features ? 1 : 2;
+    const Result<Document> document = load_document(bytes, options, centre_lines, diagnostics);
     if (!document) return document.error();
     const fetexc_svg_view& view = *fetexc_svg_get(document.value().get());
     if (view.clip_count + view.mask_count > 0)
@@ -103,6 +104,7 @@ Result<FeatureCurves> load_svg_features(std::span<const std::uint8_t> bytes, con
     for (std::uint32_t n = 0; n < view.root_end; ++n) {
         const fetexc_svg_node& node = view.nodes[n];
         if (node.kind != FETEXC_SVG_FILL || view.paints[node.paint].kind == FETEXC_SVG_RASTER) continue;
+        if (which == SvgCurves::Strokes && node.line == 0) continue;
         for (CanvasContour& contour : svg::contours_of(view, view.shapes[node.shape]))
             features.runs.push_back(std::move(contour));
     }

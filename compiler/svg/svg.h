@@ -46,10 +46,17 @@ struct SvgOptions {
 Result<Scene> load_svg(std::span<const std::uint8_t> bytes, const SvgOptions& options,
                        std::vector<Diagnostic>& diagnostics);
 
-/// The drawing as features over an image: the edges of what is filled, of stroke outlines, and the middles of strokes
-/// of shapes without fill, which may be open; bitmaps have none. Frame: the drawing's canvas. Clips and masks are not
-/// applied (warning 2053). Otherwise as load_svg.
+/// What of a drawing is taken. Edges are those of fills, hidden ones too; middles of strokes may be open.
+enum class SvgCurves {
+    Features, ///< edges, those of stroke outlines too, but middles for the strokes of shapes without fill
+    Edges,    ///< edges, those of stroke outlines too
+    Strokes,  ///< middles of all strokes
+    All,      ///< edges, middles of all strokes
+};
+
+/// The drawing as curves; bitmaps have none. Frame: the drawing's canvas. Clips and masks are not applied (warning
+/// 2053). Otherwise as load_svg.
 Result<FeatureCurves> load_svg_features(std::span<const std::uint8_t> bytes, const SvgOptions& options,
-                                        std::vector<Diagnostic>& diagnostics);
+                                        std::vector<Diagnostic>& diagnostics, SvgCurves which = SvgCurves::Features);
 
 } // namespace fetexc

@@ -78,7 +78,8 @@ enum { FETEXC_SVG_GROUP = 0, FETEXC_SVG_FILL = 1 };
 
 /** Preorder; children of node i are i+1 … end-1. Fills use shape, paint, element; groups the rest. blend: W3C order. */
 typedef struct {
-    uint32_t kind, end, clip, mask, blend, isolated, shape, paint, element, reserved;
+    uint32_t kind, end, clip, mask, blend, isolated, shape, paint, element;
+    uint32_t line; /* 1: what option centre_lines gives */
     double opacity;
 } fetexc_svg_node;
 
@@ -137,7 +138,8 @@ typedef struct {
     uint64_t max_bytes, max_elements, max_segments, max_raster_bytes;
     uint32_t max_nesting, max_milliseconds;
     uint32_t threads;      /* 0: all; never changes what comes out */
-    uint32_t centre_lines; /* strokes of shapes without fill as the lines themselves: contours that may be open */
+    /* strokes as the lines themselves, contours that may be open: 1 of shapes without fill, 2 all; 0: outlines */
+    uint32_t centre_lines;
 } fetexc_svg_options;
 
 typedef struct {

@@ -13,11 +13,11 @@ namespace {
 
 std::vector<Diagnostic> diagnostics;
 
-FeatureCurves features_of(const std::string& content) {
+FeatureCurves features_of(const std::string& content, SvgCurves which = SvgCurves::Features) {
     diagnostics.clear();
     const std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 20'>" + content + "</svg>";
     const std::vector<std::uint8_t> bytes(svg.begin(), svg.end());
-    auto features = load_svg_features(bytes, {}, diagnostics);
+    auto features = load_svg_features(bytes, {}, diagnostics, which);
     if (!features.ok()) throw std::runtime_error(features.error().message);
     return std::move(features).value();
 }
@@ -84,6 +84,23 @@ TEST(SvgFeatures, clipsAreSaidToBeIgnored) {
     EXPECT_EQ(f.runs.size(), 1u);
     ASSERT_EQ(diagnostics.size(), 1u);
     EXPECT_EQ(diagnostics[0].code, diag::kFeaturesUnclipped);
+}
+
+TEST(SvgFeatures, strokesAndEdgesCanBeTakenAlone) {
+    const std::string drawing = "<path d='M1,1 L5,1 L5,5 Z' fill='red' stroke='blue' stroke-width='1'/>"
+                                "<path d='M8,2 L12,6' fill='none' stroke='blue' stroke-width='1'/>"
+                                "<path d='M20,2 L25,6 L20,9 Z'/>";
+    const FeatureCurves strokes = features_of(drawing, SvgCurves::Strokes);
+    ASSERT_EQ(strokes.runs.size(), 2u);
+    EXPECT_EQ(strokes.runs[0].size(), 3u);
+    ASSERT_EQ(strokes.runs[1].size(), 1u); // open
+    expect_point(strokes.runs[1][0].p[1], 12, 6);
+    const FeatureCurves all = features_of(drawing, SvgCurves::All);
+    ASSERT_EQ(all.runs.size(), 4u); // and the edges of two fills
+    expect_point(all.runs[3][0].p[0], 20, 2);
+    const FeatureCurves edges = features_of(drawing, SvgCurves::Edges);
+    ASSERT_EQ(edges.runs.size(), 5u); // two fills, the outlines of a ring and of a line
+    EXPECT_GE(edges.runs[3].size(), 4u);
 }
 
 } // namespace

@@ -108,7 +108,7 @@ pub struct Node {
     pub shape: u32,
     pub paint: u32,
     pub element: u32,
-    pub reserved: u32,
+    pub line: u32,
     pub opacity: f64,
 }
 

@@ -26,7 +26,8 @@ pub struct Emitter<'a> {
     pub arc_tolerance: f64,
     pub stroke_tolerance: f64,
     pub threads: usize,
-    pub centre_lines: bool,
+    /// As abi::Options has it.
+    pub centre_lines: u32,
     ahead: OutlinesAhead,
     /// Pixels per user unit of raster layers.
     pub raster_scale: f64,
@@ -57,7 +58,7 @@ pub const EMPTY_GROUP: abi::Node = abi::Node {
     shape: abi::NONE,
     paint: abi::NONE,
     element: abi::NONE,
-    reserved: 0,
+    line: 0,
     opacity: 1.0,
 };
 
@@ -73,7 +74,7 @@ impl<'a> Emitter<'a> {
             arc_tolerance: tolerances.arc,
             stroke_tolerance: tolerances.stroke,
             threads: 1,
-            centre_lines: false,
+            centre_lines: 0,
             ahead: OutlinesAhead::default(),
             raster_scale: 1.0,
             raster_bytes_left: 0,
@@ -283,9 +284,12 @@ impl<'a> Emitter<'a> {
         element: u32,
     ) -> Result<(), Failure> {
         let Some(stroke) = p.stroke() else { return Ok(()) };
-        if self.centre_lines && p.fill().is_none() {
+        if self.centre_lines == 2 || (self.centre_lines == 1 && p.fill().is_none()) {
             let contours = line_contours(path, to_root, self.arc_tolerance);
-            return self.painted(&contours, false, &usvg::Paint::Color(usvg::Color::black()), 1.0, to_root, element);
+            let first = self.nodes.len();
+            self.painted(&contours, false, &usvg::Paint::Color(usvg::Color::black()), 1.0, to_root, element)?;
+            self.nodes[first..].iter_mut().for_each(|n| n.line = 1);
+            return Ok(());
         }
         let outline = match self.ahead.take(p, to_root, self.budget)? {
             Some(outline) => outline,

@@ -102,7 +102,7 @@ unsafe fn settings(o: &Options) -> Settings {
         max_nesting: o.max_nesting.min(1000),
         time: Duration::from_millis(o.max_milliseconds as u64),
         threads: thread_count(o.threads),
-        centre_lines: o.centre_lines != 0,
+        centre_lines: o.centre_lines,
     }
 }
 

@@ -37,8 +37,8 @@ pub struct Settings {
     pub time: Duration,
     /// At least 1. Changes nothing but the time.
     pub threads: usize,
-    /// Strokes of shapes without fill stay lines.
-    pub centre_lines: bool,
+    /// As abi::Options has it.
+    pub centre_lines: u32,
 }
 
 /// Images named by the drawing, as usvg asks for them.
@@ -232,7 +232,7 @@ pub fn load(data: &[u8], settings: &Settings) -> Result<Drawing, Failure> {
     let mut emitter = Emitter::new(recovery, report, &mut budget, tolerances);
     emitter.raster_scale = settings.raster_pixels as f64 / side;
     emitter.centre_lines = settings.centre_lines;
-    emitter.threads = if settings.centre_lines { 1 } else { settings.threads };
+    emitter.threads = if settings.centre_lines != 0 { 1 } else { settings.threads };
     emitter.raster_bytes_left = settings.max_raster_bytes;
     emitter.picture(&tree)?;
     finish(emitter)
