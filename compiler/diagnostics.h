@@ -30,14 +30,13 @@ inline constexpr int kImageUnsupported = 1103; ///< an image with depth (deep da
 inline constexpr int kTraceFailed = 1104;      ///< features couldn't be traced
 inline constexpr int kImageMemory = 1105;      ///< an image's texture would take more than 20 GiB of memory on the way: too many pixels and texels
 
-// Bezier networks (owner: compiler/network): errors. No command reads them yet, so README.md has none of these, nor of
-// the feature curves below.
-inline constexpr int kNetworkMalformed = 1501;  // a network that isn't JSON in UTF-8, or of another schema
-inline constexpr int kNetworkMember = 1502;     // a network's member is missing, unknown, or of the wrong type
-inline constexpr int kNetworkNumber = 1503;     // a number of a network is outside its range
-inline constexpr int kNetworkTooLarge = 1504;   // a network of more than 256 MiB, or more than 2^24 segments
-inline constexpr int kNetworkSegment = 1505;    // a network's segment hasn't 2, 4 or 6 numbers
-inline constexpr int kNetworkProfile = 1506;    // a profile that isn't there, has no or two shapes, or a table out of order
+// Bezier networks (owner: compiler/network): errors
+inline constexpr int kNetworkMalformed = 1501;  ///< a network that isn't JSON in UTF-8, or of another schema
+inline constexpr int kNetworkMember = 1502;     ///< a network's member is missing, unknown, or of the wrong type
+inline constexpr int kNetworkNumber = 1503;     ///< a number of a network is outside its range
+inline constexpr int kNetworkTooLarge = 1504;   ///< a network of more than 256 MiB, or more than 2^24 segments
+inline constexpr int kNetworkSegment = 1505;    ///< a network's segment hasn't 2, 4 or 6 numbers
+inline constexpr int kNetworkProfile = 1506;    ///< a profile that isn't there, has no or two shapes, or a table out of order
 
 // SVG front end: warnings, something of the drawing is missing or changed
 inline constexpr int kSvgTextWithoutFonts = 2001;  ///< text is not drawn, no fonts were given
@@ -68,8 +67,8 @@ inline constexpr int kTexelsTooSmall = 2056;     ///< more than four texels a pi
 inline constexpr int kMoreImages = 2057;         ///< the file holds more images (pages, parts, layers, frames): the first was taken
 
 // Bezier networks: warnings
-inline constexpr int kNetworkPointSegments = 2061; // segments of a network that are a single point were left out (count)
-inline constexpr int kNetworkEmpty = 2062;         // a network without a curve
+inline constexpr int kNetworkPointSegments = 2061; ///< segments of a network that are a single point were left out (count)
+inline constexpr int kNetworkEmpty = 2062;         ///< a network without a curve
 
 // SVG front end: notes, how something is represented
 inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer
@@ -101,7 +100,7 @@ inline constexpr int kSilmapBudget = 5021;   ///< no size of a silhouette-map te
 inline constexpr int kSilmapErrorUnmet = 5022; ///< no size of a silhouette-map texture has as little wrong area as asked for
 inline constexpr int kPinchmapBudget = 5031;     ///< no size of a pinchmap fits in --max-bytes
 inline constexpr int kPinchmapErrorUnmet = 5032; ///< no size of a pinchmap has as little wrong area as asked for
-inline constexpr int kFeatureBudget = 5041;      // no size of a texture with feature curves fits in --max-bytes
+inline constexpr int kFeatureBudget = 5041;      ///< no size of a texture with feature curves fits in --max-bytes
 inline constexpr int kBilevelPartsLost = 5101;  ///< parts of a silhouette that its texture doesn't show: thinner than its texels (count)
 inline constexpr int kBilevelPartsFalse = 5102; ///< parts that a bi-level texture shows and the silhouette hasn't (count)
 inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette whose colours vary: what they bound is above or below as a whole, by the mean along its edges (count)
@@ -112,10 +111,10 @@ inline constexpr int kPinchmapCrosses = 5132;      ///< crossings of edges that 
 inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges between colours that lie in one zone of a pinchmap: they are blurred (count)
 
 // Feature curves (owner: compiler/feature_curves)
-inline constexpr int kFeatureMoved = 5141;   // texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)
-inline constexpr int kFeatureEndsCut = 5142; // ends of feature curves inside a texel that end on its boundary instead (count)
-inline constexpr int kFeatureLost = 5143;    // feature curves that lie inside one texel, or fold back in it, and don't show (count)
-inline constexpr int kFeatureProfiles = 5148; // curves ask for other profiles than the one that their texture has (count)
+inline constexpr int kFeatureMoved = 5141;   ///< texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)
+inline constexpr int kFeatureEndsCut = 5142; ///< ends of feature curves inside a texel that end on its boundary instead (count)
+inline constexpr int kFeatureLost = 5143;    ///< feature curves that lie inside one texel, or fold back in it, and don't show (count)
+inline constexpr int kFeatureProfiles = 5148; ///< curves ask for other profiles than the one that their texture has (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

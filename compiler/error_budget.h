@@ -198,6 +198,10 @@ inline constexpr double kFeatureFlat = kOutputStep / 2;
 inline constexpr double kFeatureFitStop = 1e-9;
 inline constexpr int kFeatureFitSteps = 60;
 
+/// Texels: a corner nearer to a curve lies on it. Coordinates up to 2^14 and a dozen operations err by 2^-36 at most, so
+/// from here on the direction from the nearest point is known to 2^-8; nearer it would be rounding noise.
+inline constexpr double kFeatureOnCurve = 0x1p-28;
+
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
 
 /// Areas of trapezoids (planar/trapezoid_area), in epsilons of long double: De Casteljau of values up to M errs by less

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/parallel.h"
 #include "compiler/scene/bezier.h"
 #include "compiler/scene/curve_distance.h"
@@ -12,10 +13,6 @@ namespace fetexc {
 namespace {
 
 constexpr std::size_t kRows = 8; ///< of corners, for a thread at a time
-
-/// Texels: coordinates up to 2^14 and a dozen operations err by 2^-36 at most; nearer than this a difference of two has
-/// no direction to go by.
-constexpr double kOnCurve = 0x1p-28;
 
 struct Nearest {
     double squared = 0; ///< distance; up to it is looked
@@ -87,7 +84,7 @@ class Rasteriser {
         const double distance = best.found ? std::min(std::sqrt(best.squared), map_.limit) : map_.limit;
         map_.distances[at] = distance;
         if (!(distance < map_.limit)) return;
-        map_.gradients[at] = distance > kOnCurve
+        map_.gradients[at] = distance > budget::kFeatureOnCurve
                                  ? DistanceGradient{(p.x - best.point.x) / distance, (p.y - best.point.y) / distance}
                                  : normal_at_corner(best, p);
     }

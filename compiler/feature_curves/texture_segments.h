@@ -82,6 +82,9 @@ class TextureSegments {
     }
 
   private:
+    /// Middle points of a texel's curves.
+    void bend(const fetex::FeatureCurvesTexture& texture, std::uint32_t i, std::uint32_t j);
+
     [[nodiscard]] CanvasPoint point(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
         const std::size_t corner = std::size_t{j} * (std::size_t{width_} + 1) + i;
         const double x = i, y = j;

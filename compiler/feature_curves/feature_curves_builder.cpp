@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compiler/feature_curves/feature_curves_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "compiler/diagnostics.h"
+#include "compiler/feature_curves/feature_samples.h"
+#include "compiler/scene/lattice.h"
+#include "formats/bitmap_samples.h"
+
+namespace fetexc {
+namespace {
+
+using fetex::FeatureCurvesTexture;
+using fetex::FeatureKind;
+
+constexpr std::uint32_t kMaxSide = 16384;
+constexpr double kMostDistance = 65504; ///< texels: what the format takes
+
+/// Of the curves: what most of them ask for, the first of equals; none: the preset crease.
+std::string wanted_profile(const Network& network) {
+    std::map<std::string, std::size_t> counts;
+    std::string best = std::string(kProfilePresets.front());
+    std::size_t most = 0;
+    for (const NetworkCurve& c : network.curves) // in their order, so that the first to lead stays
+        if (!c.profile.empty() || !network.profile.empty()) ++counts[c.profile.empty() ? network.profile : c.profile];
+    for (const NetworkCurve& c : network.curves) {
+        const std::string& name = c.profile.empty() ? network.profile : c.profile;
+        if (!name.empty() && counts[name] > most) best = name, most = counts[name];
+    }
+    return best;
+}
+
+FeatureProfile choose_profile(const Network& network, const FeatureCurvesOptions& options, FeatureCurvesBuild& build) {
+    if (options.profile) return *options.profile;
+    const std::string name = wanted_profile(network);
+    std::string other;
+    for (const NetworkCurve& c : network.curves) {
+        const std::string& own = c.profile.empty() ? network.profile : c.profile;
+        if (own.empty() || own == name) continue;
+        if (build.stats.curves_other_profile++ == 0) other = own;
+    }
+    if (build.stats.curves_other_profile > 0) {
+        build.diagnostics.push_back({Severity::Warning, diag::kFeatureProfiles,
+                                     std::to_string(build.stats.curves_other_profile) +
+                                         " curves ask for other profiles (\"" + other + "\" is one) than \"" + name +
+                                         "\", which the whole texture has",
+                                     ""});
+    }
+    return *find_profile(network, name);
+}
+
+/// Whatever distance a point of a texel has within the profile's width, its texel's corners are at most a diagonal
+/// farther.
+double limit_for(const FeatureProfile& profile, double scale) { return profile.width * scale + std::numbers::sqrt2; }
+
+Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions& options) {
+    auto lines = lattice_lines(network, options.size.width, options.size.height);
+    if (!lines) return lines.error();
+    return snap_lines(lines.value(), options.size.width, options.size.height);
+}
+
+void count(const SnappedCurves& curves, const DistanceMap& map, FeatureCurvesBuild& build) {
+    FeatureCurvesStats& s = build.stats;
+    s.snapping = curves.stats, s.moved = curves.moves.size();
+    for (const FeatureMove& m : curves.moves)
+        s.farthest = std::max(s.farthest, m.distance);
+    for (const fetex::FeatureConfiguration c : build.texture.configurations) {
+        const std::uint32_t segments = fetex::feature_unpack(c).count;
+        s.texels_one += segments == 1, s.texels_two += segments == 2;
+    }
+    s.corners_near =
+        static_cast<std::uint64_t>(std::ranges::count_if(map.distances, [&](double d) { return d < map.limit; }));
+    s.gpu_bytes = fetex::feature_gpu_bytes(build.texture);
+}
+
+/// The distances are those of the curves as the texture has them.
+DistanceMap add_distances(const FeatureCurvesOptions& options, FeatureCurvesTexture& t) {
+    DistanceMap map = distance_map(TextureSegments(t), static_cast<double>(t.distance_limit), options.threads);
+    if (t.kind == FeatureKind::Normal) smooth_gradients(map, t, options.smooth, options.threads);
+    std::size_t at = 0;
+    for (std::uint32_t j = 0; j <= t.height; ++j) {
+        for (std::uint32_t i = 0; i <= t.width; ++i, ++at) {
+            fetex::feature_set_distance(t, i, j, map.distances[at]);
+            if (t.kind == FeatureKind::Normal)
+                fetex::feature_set_gradient(t, i, j, {map.gradients[at].x, map.gradients[at].y});
+        }
+    }
+    return map;
+}
+
+bool out_of_range(GridSize size) {
+    return size.width < 1 || size.height < 1 || size.width > kMaxSide || size.height > kMaxSide;
+}
+
+/// On the GPU.
+std::uint64_t bytes_at(GridSize size, const FeatureCurvesOptions& options, bool linear) {
+    const std::uint64_t corners = (std::uint64_t{size.width} + 1) * (std::uint64_t{size.height} + 1);
+    const std::uint64_t numbers =
+        fetex::feature_signature_numbers(linear) + 1 + (options.kind == FeatureKind::Normal ? 2 : 0);
+    const std::uint64_t samples = options.base.image != nullptr ? corners : 1;
+    return 2 * std::uint64_t{size.width} * size.height +
+           corners * numbers * fetex::feature_number_bytes(options.numbers) +
+           samples * fetex::bitmap_sample_bytes(options.sample_format) +
+           kFeatureProfileEntries * sizeof(fetex::FeatureProfileEntry);
+}
+
+bool all_lines(const Network& network) {
+    return std::ranges::all_of(network.curves, [](const NetworkCurve& c) {
+        return std::ranges::all_of(c.segments, [](const CanvasSegment& s) { return s.degree == 1; });
+    });
+}
+
+} // namespace
+
+double texels_per_unit(const Network& network, GridSize size) {
+    return (size.width / network.width + size.height / network.height) / 2;
+}
+
+Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const FeatureCurvesOptions& options,
+                                                  const ProgressSink& progress) {
+    if (out_of_range(options.size))
+        return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
+    FeatureCurvesBuild build;
+    build.stats.curves = network.curves.size(), build.stats.segments = segment_count(network);
+    build.profile = choose_profile(network, options, build);
+    if (progress) progress("curves", 0);
+    auto curves = snapped(network, options);
+    if (!curves) return curves.error();
+    const double scale = texels_per_unit(network, options.size);
+    const double limit = options.limit > 0 ? options.limit : limit_for(build.profile, scale);
+    build.texture = linear_texture(curves.value(), options.numbers, static_cast<float>(std::min(limit, kMostDistance)));
+    build.texture.kind = options.kind;
+    if (progress) progress("distances", 0.5);
+    const DistanceMap map = add_distances(options, build.texture);
+    add_profile(build.profile, scale, build.texture);
+    add_base(options, scale, build.texture);
+    count(curves.value(), map, build);
+    for (Diagnostic& d : snap_diagnostics(curves.value()))
+        build.diagnostics.push_back(std::move(d));
+    build.moves = std::move(curves.value().moves);
+    return build;
+}
+
+Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network, const FeatureCurvesOptions& options,
+                                                         std::uint64_t max_bytes, const ProgressSink& progress) {
+    const Result<Extent> extent = make_extent(network.width, network.height);
+    if (!extent) return extent.error();
+    const bool linear = options.linear || all_lines(network);
+    const auto fits = [&](std::uint32_t side) {
+        return bytes_at(grid_for(extent.value(), side), options, linear) <= max_bytes;
+    };
+    if (!fits(1))
+        return Error{ErrorClass::Usage, diag::kFeatureBudget,
+                     "no size of a texture with feature curves fits in " + std::to_string(max_bytes) + " bytes", ""};
+    std::uint32_t least = 1, most = kMaxSide + 1; // the first fits, the last doesn't
+    while (most - least > 1) {
+        const std::uint32_t middle = least + (most - least) / 2;
+        (fits(middle) ? least : most) = middle;
+    }
+    FeatureCurvesOptions chosen = options;
+    chosen.size = grid_for(extent.value(), least);
+    return compile_feature_curves(network, chosen, progress);
+}
+
+} // namespace fetexc

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Textures with feature curves (Parilov and Zorin 2008; formats/feature_curves.h) from networks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compiler/compile.h"
+#include "compiler/feature_curves/base_map.h"
+#include "compiler/feature_curves/distance_map.h"
+#include "compiler/feature_curves/snapping.h"
+#include "compiler/network/network.h"
+#include "formats/feature_curves.h"
+
+namespace fetexc {
+
+struct FeatureCurvesOptions {
+    GridSize size; ///< texels
+    fetex::FeatureNumberFormat numbers = fetex::FeatureNumberFormat::Bits16;
+    bool linear = false; ///< chords for curves; networks of lines always have linear textures
+    fetex::FeatureKind kind = fetex::FeatureKind::Normal;
+    fetex::FeatureSampleFormat sample_format = fetex::FeatureSampleFormat::Rgba8; ///< of the base map
+    /// Texels; 0: as far as the profile reaches, and so much more that in texels where it begins the corners' distances
+    /// are known.
+    double limit = 0;
+    std::uint32_t smooth = kGradientIterations; ///< iterations
+    std::optional<FeatureProfile> profile;      ///< for all curves; none: as the network says
+    /// Without an image: one sample. Heights are in user units here.
+    BaseImage base;
+    Rgba base_color;      ///< straight; of colours without an image
+    unsigned threads = 1; ///< 0: all; never changes a byte
+};
+
+/// Deterministic: no times in here.
+struct FeatureCurvesStats {
+    std::uint64_t curves = 0, segments = 0; ///< of the network
+    SnapStats snapping;
+    std::uint64_t moved = 0;                      ///< texels that aren't as the network has them
+    double farthest = 0;                          ///< of them: texels
+    std::uint64_t texels_one = 0, texels_two = 0; ///< with one segment, two
+    std::uint64_t corners_near = 0;               ///< nearer than the limit
+    std::uint64_t curves_other_profile = 0;       ///< that ask for another than the texture's (W5148)
+    std::uint64_t gpu_bytes = 0;
+};
+
+struct FeatureCurvesBuild {
+    fetex::FeatureCurvesTexture texture;
+    FeatureProfile profile; ///< what the texture has
+    FeatureCurvesStats stats;
+    std::vector<FeatureMove> moves; ///< of snapping
+    std::vector<Diagnostic> diagnostics;
+};
+
+/// Errors: kSizeOutOfRange; those of lattice_lines and lattice_curves.
+Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const FeatureCurvesOptions& options,
+                                                  const ProgressSink& progress = {});
+
+/// The largest size, by the longer side, of at most max_bytes on the GPU; options.size is ignored. Error
+/// kFeatureBudget: none fits.
+Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network, const FeatureCurvesOptions& options,
+                                                         std::uint64_t max_bytes, const ProgressSink& progress = {});
+
+/// Texels that a user unit has: the mean of both sides'.
+double texels_per_unit(const Network& network, GridSize size);
+
+/// Entries of a texture's profile.
+inline constexpr std::uint32_t kFeatureProfileEntries = 256;
+
+} // namespace fetexc
