@@ -244,12 +244,4 @@ FbtColor feature_base(const FeatureCurvesTexture& t, std::uint32_t i, std::uint3
 /// format's numbers, 127, 32767 or a half of 1/2.
 double feature_normal_factor(FeatureSampleFormat format);
 
-/// The profile between its entries; channels of the colour 0 … 1.
-struct FeatureProfile {
-    double height = 0, slope = 0, blend = 1;
-    FbtColor color;
-};
-/// distance: less than 0 and more than the limit count as these. Precondition: the profile has two entries.
-FeatureProfile feature_profile(const FeatureCurvesTexture& t, double distance);
-
 } // namespace fetex

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Base map and profile of a texture with feature curves.
-#include <algorithm>
-
+/// The base map of a texture with feature curves, and the bytes of all its arrays.
 #include "formats/bitmap_samples.h"
 #include "formats/fbt_samples.h"
 #include "formats/feature_curves.h"
-#include "formats/interpolation.h"
 
 namespace fetex {
 
@@ -34,16 +31,6 @@ double feature_normal_factor(FeatureSampleFormat format) {
     default:
         return 255.0 / 127;
     }
-}
-
-FeatureProfile feature_profile(const FeatureCurvesTexture& t, double distance) {
-    const double last = static_cast<double>(t.profile.size() - 1), at = clamp_to(distance / t.distance_limit, 1) * last;
-    const std::size_t k = std::min(static_cast<std::size_t>(at), t.profile.size() - 2);
-    const double part = at - static_cast<double>(k);
-    const FeatureProfileEntry &a = t.profile[k], &b = t.profile[k + 1];
-    const auto between = [&](double from, double to) { return from + part * (to - from); };
-    return {between(a.height, b.height), between(a.slope, b.slope), between(a.blend, b.blend),
-            mix(color_of(a.color), color_of(b.color), part)};
 }
 
 } // namespace fetex

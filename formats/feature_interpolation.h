@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+/// Interpolation in a texel with feature curves (SPEC.md, section 9.2). Internal to formats/.
+///
+/// Frame: the texel's, local 0 … 1. Corners: bit 0 east, bit 1 south; sets have 1 << corner for each.
+#pragma once
+
+#include <array>
+
+#include "formats/feature_curve_geometry.h"
+
+namespace fetex {
+
+inline constexpr std::uint32_t kFeatureCorners = 4, kFeatureAllCorners = 15;
+
+/// What a texel has, but for its maps.
+struct FeatureTexel {
+    FeatureSegmentList segments;
+    std::array<FeatureQuadratic, 2> curves; ///< of segments
+    std::array<double, 4> positions{};      ///< of the edges' points, by feature_edge_index
+    std::uint32_t open = 0;                 ///< feature_open_edges
+};
+
+/// Where a point lies, and what that means for the maps.
+struct FeatureRegion {
+    std::uint32_t corners = kFeatureAllCorners; ///< the set of those it reaches
+    std::uint32_t across = kFeatureAllCorners;  ///< those on the other side of the nearest segment
+    double distance = 0;
+};
+FeatureRegion feature_region(const FeatureTexel& texel, const std::array<double, 4>& distances, FeaturePoint p);
+
+/// Weights of the corners at a point that reaches a set of them: not negative, they add up to 1.
+std::array<double, 4> feature_weights(const FeatureTexel& texel, std::uint32_t corners, FeaturePoint p);
+
+} // namespace fetex
