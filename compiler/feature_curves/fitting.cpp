@@ -121,12 +121,15 @@ class Fitter {
         if (!sqp::solve(task, x, budget::kFeatureFitStop, budget::kFeatureFitSteps).solved) return false;
         const std::array<fetex::FeatureCrossing, 4> before = crossings(t);
         const std::array<SegmentSet, 4> valid = valid_beside(t);
+        const SegmentSet curved = texel(t).curved;
         problem.apply(x, curves_);
+        settle_straight(t);
         if (!has_fault(curves_, t.i, t.j) && still_valid(t, valid)) {
             texel(t).kinds |= kFitted;
             return true;
         }
         set_crossings(t, before);
+        texel(t).curved = curved;
         return false;
     }
 

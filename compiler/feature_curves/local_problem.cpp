@@ -108,16 +108,16 @@ LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::ui
     const SegmentSet curved = curves.texel(i, j).curved;
     for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
         if (curved >> k & 1u) add_inner(curves, k);
+    inner_ = segments_.size();
     for (std::size_t p = 0; p < points_.size(); ++p)
         add_outer(curves, p);
     add_tangencies();
     // A segment without a point or a tangent that can change is what it is.
-    for (std::size_t s = 0; s < segments_.size() && open_; ++s) {
-        bool held = true, inner = false;
-        for (const Handle& h : handles_)
-            if (h.segment == s)
-                held = held && points_[h.point].at.variable[0] < 0 && points_[h.point].angle, inner = true;
-        if (inner && held && middle(s).variable[1] >= 0) open_ = false;
+    for (std::size_t s = 0; s < inner_; ++s) {
+        const bool moves = std::ranges::any_of(handles_, [&](const Handle& h) {
+            return h.segment == s && (points_[h.point].at.variable[0] >= 0 || !points_[h.point].angle);
+        });
+        open_ = open_ && moves;
     }
 }
 
@@ -269,20 +269,34 @@ void LocalProblem::apply(const sqp::Vector& x, SnappedCurves& curves) const {
     for (std::size_t p = 0; p < points_.size(); ++p) {
         const Point& point = points_[p];
         if (point.at.variable[0] >= 0) curves.position(i_, j_, point.edge) = x[point.at.variable[0]];
-        if (point.angle) {
-            curves.angle(i_, j_, point.edge) = *point.angle;
-            continue;
-        }
-        // The longest handle has the least error.
-        const std::array<double, 2> at = point.at.at(x.data());
-        std::array<double, 2> longest{};
-        for (const Handle& h : handles_) {
-            if (h.point != p) continue;
-            const std::array<double, 2> handle = middle(h.segment).at(x.data()) - at;
-            if (std::hypot(handle[0], handle[1]) > std::hypot(longest[0], longest[1])) longest = handle;
-        }
-        curves.angle(i_, j_, point.edge) = line_angle(longest[0], longest[1]);
+        curves.angle(i_, j_, point.edge) = point.angle ? *point.angle : angle_at(p, x);
     }
+    for (std::size_t s = 0; s < inner_; ++s)
+        straighten_flat(s, x, curves);
+}
+
+/// Of the longest handle, which has the least error.
+double LocalProblem::angle_at(std::size_t point, const sqp::Vector& x) const {
+    const std::array<double, 2> at = points_[point].at.at(x.data());
+    std::array<double, 2> longest{};
+    for (const Handle& h : handles_) {
+        if (h.point != point) continue;
+        const std::array<double, 2> handle = middle(h.segment).at(x.data()) - at;
+        if (std::hypot(handle[0], handle[1]) > std::hypot(longest[0], longest[1])) longest = handle;
+    }
+    return line_angle(longest[0], longest[1]);
+}
+
+/// A segment between two that bend to either side is the least bent when it is straight: its chord is its tangent.
+void LocalProblem::straighten_flat(std::size_t segment, const sqp::Vector& x, SnappedCurves& curves) const {
+    const auto& points = segments_[segment].points;
+    const std::array<double, 2> from = points[0].at(x.data()), chord = points[2].at(x.data()) - from,
+                                handle = points[1].at(x.data()) - from;
+    const double length = std::hypot(chord[0], chord[1]);
+    if (!(std::abs(cross(chord, handle)) <= budget::kFeatureFlat * length)) return;
+    for (const Handle& h : handles_)
+        if (h.segment == segment && !points_[h.point].angle)
+            curves.angle(i_, j_, points_[h.point].edge) = line_angle(chord[0], chord[1]);
 }
 
 } // namespace fetexc

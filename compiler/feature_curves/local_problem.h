@@ -86,6 +86,8 @@ class LocalProblem : public sqp::Problem {
     void add_inner(const SnappedCurves& curves, std::uint32_t k);
     void add_outer(const SnappedCurves& curves, std::size_t point);
     void add_tangencies();
+    [[nodiscard]] double angle_at(std::size_t point, const sqp::Vector& x) const;
+    void straighten_flat(std::size_t segment, const sqp::Vector& x, SnappedCurves& curves) const;
     int add_variable(double low, double high, double start);
     [[nodiscard]] const MovablePoint& middle(std::size_t segment) const { return segments_[segment].points[1]; }
     template <class T> [[nodiscard]] T tangency(const Tangency& t, const T* x) const;
@@ -94,7 +96,8 @@ class LocalProblem : public sqp::Problem {
     std::uint32_t i_, j_;
     bool open_ = false;
     std::vector<Point> points_;
-    std::vector<Segment> segments_;
+    std::vector<Segment> segments_; ///< the texel's, then those beside it
+    std::size_t inner_ = 0;         ///< how many are the texel's
     std::vector<Handle> handles_;
     std::vector<Tangency> tangencies_;
     std::vector<double> low_, high_, start_;

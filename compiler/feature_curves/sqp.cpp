@@ -11,15 +11,21 @@ namespace {
 /// Where a variable is in a step's quadratic problem.
 enum class Place : std::uint8_t { Free, Low, High };
 
-/// Relative to the largest entry: what makes a matrix positive definite, first try and factor.
-constexpr double kFirstShift = 1e-8, kShiftGrowth = 10;
+/// Relative to the largest entry of the objective's matrix: makes it positive definite.
+constexpr double kFirstShift = 1e-8;
+/// Relative to the largest entry: what is added across constraints.
+constexpr double kAcross = 10;
+constexpr int kCurvatureHalvings = 4;
 /// Relative to a constraint's derivatives: constraints that depend on each other, or can't be met, don't end the step.
-constexpr double kConstraintSlack = 1e-12;
+constexpr double kConstraintSlack = 1e-13;
+/// How often what the slack leaves of the constraints is solved for.
+constexpr int kRefinements = 3;
 /// Rounds of choosing active bounds: one after the other beyond the first half, where all at once may go round in a
 /// circle.
 constexpr int kActiveRounds = 40;
 constexpr double kSufficient = 1e-4; ///< Armijo's part of the decrease
-constexpr int kHalvings = 30;
+constexpr int kHalvings = 20;
+constexpr double kMeritRounding = 1e-14; ///< relative
 
 using Factor = Eigen::LLT<Matrix>;
 
@@ -87,12 +93,14 @@ class Step {
         using Tall = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostVariables, kMostConstraints>;
         const Tall back = factor.solve(Tall(a.transpose()));
         Square s = a * back;
-        const double slack = kConstraintSlack * (1 + s.cwiseAbs().maxCoeff());
-        s.diagonal().array() += slack;
+        s.diagonal().array() += kConstraintSlack * (1 + s.cwiseAbs().maxCoeff());
         const Eigen::LLT<Square> outer(s);
         if (outer.info() != Eigen::Success) return false;
-        multipliers = outer.solve(left + a * part);
-        part -= back * multipliers;
+        for (int k = 0; k < kRefinements; ++k) {
+            const Values more = outer.solve(left + a * part);
+            multipliers += more;
+            part -= back * more;
+        }
         return part.allFinite();
     }
 
@@ -134,7 +142,7 @@ class Step {
 class Solver {
   public:
     Solver(const Task& task, Vector& x) : task_(task), x_(x) {
-        multipliers_.setZero(task.constraints);
+        multipliers_.setZero(task.constraints), weights_.setZero(task.constraints);
         evaluate();
     }
 
@@ -148,8 +156,9 @@ class Solver {
                 return {false, step};
             }
             const double size = quadratic.d.size() > 0 ? quadratic.d.cwiseAbs().maxCoeff() : 0;
-            if (size <= accuracy && off() <= accuracy) return {true, step};
-            if (!advance(quadratic, slope)) return {off() <= accuracy && size <= std::sqrt(accuracy), step};
+            const bool met = off() <= accuracy;
+            if (met && (size <= accuracy || -slope.dot(quadratic.d) <= accuracy)) return {true, step};
+            if (!advance(quadratic, slope)) return {met && size <= std::sqrt(accuracy), step};
         }
         return {false, most_steps};
     }
@@ -161,41 +170,50 @@ class Solver {
         return x.dot(task_.hessian * x) / 2 + task_.gradient.dot(x);
     }
 
-    /// The Lagrangian's second derivatives, convex where constraints leave room: along these nothing is added if
-    /// possible, as what is added across them doesn't change the step.
+    /// The Lagrangian's second derivatives if they are convex, at least where constraints and bounds leave room: what is
+    /// added across these doesn't change the step. Else with as much of the constraints' part as leaves them convex.
     [[nodiscard]] Matrix convex() const {
-        Matrix w = task_.hessian;
-        task_.problem.add_curvature(multipliers_, w);
-        const double scale = std::max(1.0, largest(w));
-        const double first = kFirstShift * scale;
-        Matrix b = w;
-        b.diagonal().array() += first;
-        if (Factor(b).info() == Eigen::Success) return b;
-        w += 10 * scale * jacobian_.transpose() * jacobian_;
-        for (double shift = first;; shift *= kShiftGrowth) {
-            b = w;
+        const auto n = x_.size();
+        Matrix curvature = Matrix::Zero(n, n);
+        task_.problem.add_curvature(multipliers_, curvature);
+        const double shift = kFirstShift * std::max(1.0, largest(task_.hessian));
+        Matrix b;
+        const auto is_convex = [&](double part, double across) {
+            b = task_.hessian + part * curvature;
             b.diagonal().array() += shift;
-            if (Factor(b).info() == Eigen::Success || shift > scale * kMostVariables) return b;
-        }
+            if (across > 0) {
+                b += across * jacobian_.transpose() * jacobian_;
+                for (Eigen::Index k = 0; k < n; ++k)
+                    if (places_[static_cast<std::size_t>(k)] != Place::Free) b(k, k) += across;
+            }
+            return Factor(b).info() == Eigen::Success;
+        };
+        if (is_convex(1, 0)) return b;
+        const double across = kAcross * std::max(1.0, largest(curvature));
+        for (int k = 0; k < kCurvatureHalvings; ++k)
+            if (is_convex(std::ldexp(1.0, -k), across)) return b;
+        is_convex(0, 0);
+        return b;
     }
 
-    /// Along the step as far as objective and constraints, added up, get better.
+    /// Objective and constraints in one number, to get less.
+    [[nodiscard]] double merit() const { return objective(x_) + weights_.dot(values_.cwiseAbs()); }
+
+    /// Along the step as far as the merit gets less.
     bool advance(const Step& q, const Vector& slope) {
-        const double most = q.multipliers.size() > 0 ? q.multipliers.cwiseAbs().maxCoeff() : 0;
-        weight_ = std::max(weight_, 2 * most);
-        const double before = objective(x_) + weight_ * values_.cwiseAbs().sum();
-        const double gain = slope.dot(q.d) - weight_ * values_.cwiseAbs().sum();
+        const Values size = q.multipliers.cwiseAbs();
+        weights_ = size.cwiseMax((weights_ + size) / 2); // Powell's
+        const double before = merit(), gain = slope.dot(q.d) - weights_.dot(values_.cwiseAbs());
         const Vector from = x_;
         const Jacobian jacobian = jacobian_;
         double part = 1;
-        for (int halving = 0; halving < kHalvings; ++halving, part /= 2) {
+        for (int halving = 0;; ++halving, part /= 2) {
             if (accept(from + part * q.d, before + kSufficient * part * gain)) break;
             if (halving == 0 && accept(corrected(from + q.d, jacobian), before + kSufficient * gain)) break;
-            if (halving + 1 == kHalvings) {
-                x_ = from;
-                evaluate();
-                return false;
-            }
+            if (halving + 1 < kHalvings) continue;
+            x_ = from;
+            evaluate();
+            return false;
         }
         multipliers_ += part * (q.multipliers - multipliers_);
         return true;
@@ -204,7 +222,7 @@ class Solver {
     bool accept(const Vector& x, double most) {
         x_ = x.cwiseMax(task_.low).cwiseMin(task_.high);
         evaluate();
-        return objective(x_) + weight_ * values_.cwiseAbs().sum() <= most + 1e-15 * std::abs(most);
+        return merit() <= most + kMeritRounding * (1 + std::abs(most));
     }
 
     /// Back towards the constraints, which bend away from a step along them.
@@ -223,7 +241,7 @@ class Solver {
     Values values_, multipliers_;
     Jacobian jacobian_;
     std::array<Place, kMostVariables> places_{};
-    double weight_ = 1;
+    Values weights_; ///< of constraints in the merit
 };
 
 } // namespace
