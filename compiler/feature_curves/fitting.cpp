@@ -20,6 +20,8 @@ constexpr std::uint32_t kColorsAlong = 3;
 /// A problem that has no solution may get one when its neighbours' are solved.
 constexpr int kSweeps = 2;
 constexpr std::size_t kChunk = 16;
+/// Middle points close to an edge make parabolas that come back: then once more, farther inside.
+constexpr std::array kMargins = {budget::kFeatureMargin, 1.0 / 8};
 
 struct TexelIndex {
     std::uint32_t i = 0, j = 0;
@@ -114,7 +116,13 @@ class Fitter {
     /// False: nothing has changed.
     bool fit(TexelIndex t) {
         if (!has_fault(curves_, t.i, t.j)) return false; // a neighbour's problem made it valid
-        const LocalProblem problem(curves_, t.i, t.j);
+        for (const double margin : kMargins)
+            if (fit(t, margin)) return true;
+        return false;
+    }
+
+    bool fit(TexelIndex t, double margin) {
+        const LocalProblem problem(curves_, t.i, t.j, margin);
         if (!problem.open()) return false;
         sqp::Vector x = problem.start();
         const sqp::Task task = problem.task();

@@ -103,7 +103,8 @@ StraightEnds straight_ends(const SnappedCurves& curves, std::uint32_t i, std::ui
     return out;
 }
 
-LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j) : i_(i), j_(j) {
+LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, double margin)
+    : i_(i), j_(j), margin_(margin) {
     open_ = true;
     const SegmentSet curved = curves.texel(i, j).curved;
     for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
@@ -150,7 +151,7 @@ void LocalProblem::add_inner(const SnappedCurves& curves, std::uint32_t k) {
     const std::size_t a = add_point(curves, s.first), b = add_point(curves, s.second);
     const FeaturePoint start = shown_segment(curves, i_, j_, k).curve[1];
     MovablePoint middle;
-    middle.variable = {add_variable(kLeast, kMost, start.x), add_variable(kLeast, kMost, start.y)};
+    middle.variable = {add_variable(margin_, 1 - margin_, start.x), add_variable(margin_, 1 - margin_, start.y)};
     middle.by = {FeaturePoint{1, 0}, FeaturePoint{0, 1}};
     handles_.push_back({a, segments_.size()}), handles_.push_back({b, segments_.size()});
     segments_.push_back({{points_[a].at, middle, points_[b].at}});

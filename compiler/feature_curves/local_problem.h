@@ -48,8 +48,8 @@ struct MovablePoint {
 
 class LocalProblem : public sqp::Problem {
   public:
-    /// Of a texel with curved segments.
-    LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j);
+    /// Of a texel with curved segments; their middle points stay `margin` inside.
+    LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, double margin);
 
     /// Something of it can move, and no neighbour's tangent keeps its middle point out of its texel.
     [[nodiscard]] bool open() const { return open_; }
@@ -94,6 +94,7 @@ class LocalProblem : public sqp::Problem {
     template <class T> [[nodiscard]] std::array<T, 2> bend(const Segment& s, const T* x) const;
 
     std::uint32_t i_, j_;
+    double margin_;
     bool open_ = false;
     std::vector<Point> points_;
     std::vector<Segment> segments_; ///< the texel's, then those beside it
