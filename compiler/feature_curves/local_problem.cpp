@@ -113,6 +113,7 @@ LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::ui
     for (std::size_t p = 0; p < points_.size(); ++p)
         add_outer(curves, p);
     add_tangencies();
+    find_curvature();
     // A segment without a point or a tangent that can change is what it is.
     for (std::size_t s = 0; s < inner_; ++s) {
         const bool moves = std::ranges::any_of(handles_, [&](const Handle& h) {
@@ -249,8 +250,8 @@ void LocalProblem::constraints(const sqp::Vector& x, sqp::Values& values, sqp::J
     }
 }
 
-void LocalProblem::add_curvature(const sqp::Values& weights, sqp::Matrix& to) const {
-    const Eigen::Index n = to.rows();
+void LocalProblem::find_curvature() {
+    const auto n = static_cast<Eigen::Index>(start_.size());
     const auto x = jets(sqp::Vector::Zero(n));
     for (std::size_t k = 0; k < tangencies_.size(); ++k) {
         const Tangency& t = tangencies_[k];
@@ -258,12 +259,19 @@ void LocalProblem::add_curvature(const sqp::Values& weights, sqp::Matrix& to) co
         // Both factors are linear.
         const auto p = points_[t.point].at.at(x.data());
         const auto a = middle(t.segment).at(x.data()) - p, b = middle(*t.like).at(x.data()) - p;
-        const auto both = [&](const Jet& f, const Jet& g) {
-            const sqp::Matrix product = f.v.head(n) * g.v.head(n).transpose();
-            return sqp::Matrix(product + product.transpose());
-        };
-        to += weights[static_cast<Eigen::Index>(k)] * (both(a[0], b[1]) - both(a[1], b[0]));
+        for (Eigen::Index r = 0; r < n; ++r) {
+            for (Eigen::Index c = 0; c < n; ++c) {
+                const double value = a[0].v[r] * b[1].v[c] + b[1].v[r] * a[0].v[c] - a[1].v[r] * b[0].v[c] -
+                                     b[0].v[r] * a[1].v[c];
+                if (value != 0) curvature_.push_back({static_cast<Eigen::Index>(k), r, c, value});
+            }
+        }
     }
+}
+
+void LocalProblem::add_curvature(const sqp::Values& weights, sqp::Matrix& to) const {
+    for (const Curvature& c : curvature_)
+        to(c.row, c.column) += weights[c.tangency] * c.value;
 }
 
 void LocalProblem::apply(const sqp::Vector& x, SnappedCurves& curves) const {

@@ -82,10 +82,17 @@ class LocalProblem : public sqp::Problem {
         std::optional<std::size_t> like;
     };
 
+    /// An entry of a tangency's second derivatives.
+    struct Curvature {
+        Eigen::Index tangency = 0, row = 0, column = 0;
+        double value = 0;
+    };
+
     std::size_t add_point(const SnappedCurves& curves, fetex::FeatureEdge e);
     void add_inner(const SnappedCurves& curves, std::uint32_t k);
     void add_outer(const SnappedCurves& curves, std::size_t point);
     void add_tangencies();
+    void find_curvature();
     [[nodiscard]] double angle_at(std::size_t point, const sqp::Vector& x) const;
     void straighten_flat(std::size_t segment, const sqp::Vector& x, SnappedCurves& curves) const;
     int add_variable(double low, double high, double start);
@@ -101,6 +108,7 @@ class LocalProblem : public sqp::Problem {
     std::size_t inner_ = 0;         ///< how many are the texel's
     std::vector<Handle> handles_;
     std::vector<Tangency> tangencies_;
+    std::vector<Curvature> curvature_;
     std::vector<double> low_, high_, start_;
 };
 

@@ -92,7 +92,7 @@ class Step {
         using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostConstraints, kMostConstraints>;
         using Tall = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostVariables, kMostConstraints>;
         const Tall back = factor.solve(Tall(a.transpose()));
-        Square s = a * back;
+        Square s = a.lazyProduct(back);
         s.diagonal().array() += kConstraintSlack * (1 + s.cwiseAbs().maxCoeff());
         const Eigen::LLT<Square> outer(s);
         if (outer.info() != Eigen::Success) return false;
@@ -182,7 +182,7 @@ class Solver {
             b = task_.hessian + part * curvature;
             b.diagonal().array() += shift;
             if (across > 0) {
-                b += across * jacobian_.transpose() * jacobian_;
+                b += across * jacobian_.transpose().lazyProduct(jacobian_);
                 for (Eigen::Index k = 0; k < n; ++k)
                     if (places_[static_cast<std::size_t>(k)] != Place::Free) b(k, k) += across;
             }
@@ -231,7 +231,7 @@ class Solver {
         Jacobian a = jacobian;
         for (int k = 0; k < x.size(); ++k)
             if (places_[static_cast<std::size_t>(k)] != Place::Free) a.col(k).setZero();
-        Square s = a * a.transpose();
+        Square s = a.lazyProduct(a.transpose());
         s.diagonal().array() += kConstraintSlack * (1 + s.diagonal().sum());
         return x - a.transpose() * s.llt().solve(values_);
     }
