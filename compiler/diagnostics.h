@@ -114,6 +114,7 @@ inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges between co
 inline constexpr int kFeatureMoved = 5141;   ///< texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)
 inline constexpr int kFeatureEndsCut = 5142; ///< ends of feature curves inside a texel that end on its boundary instead (count)
 inline constexpr int kFeatureLost = 5143;    ///< feature curves that lie inside one texel, or fold back in it, and don't show (count)
+inline constexpr int kFeatureStraightened = 5144; ///< segments of feature curves that are straight, and bend where they end, as no valid quadratic was found (count)
 inline constexpr int kFeatureProfiles = 5148; ///< curves ask for other profiles than the one that their texture has (count)
 
 // Command line and files (owner: cli)

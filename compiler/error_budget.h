@@ -181,8 +181,14 @@ inline constexpr double kFeatureMoveTold = 0.5;
 /// two lines meet, to that over their angle, 2^-22 of a texel.
 inline constexpr double kFeatureParallel = 0x1p-30;
 
-/// Texels: what is no farther from the input hasn't moved. A middle point of tangents known to 2^-52 that meet at 2^-30.
-inline constexpr double kFeatureMoveNoise = 0x1p-20;
+/// Texels: what is no farther from the input hasn't moved: half a step of positions in a texture. Rounding to the lattice
+/// turns tangents by 2^-21 (a quarter of a texel, 512 of them), which moves a middle point by 2^-16 where they meet at
+/// 2^-5.
+inline constexpr double kFeatureMoveNoise = kOutputStep / 2;
+
+/// Texels: a valid middle point is so far inside its texel, and thereby from the ends: a tangent taken from there is known
+/// to 2^-52 over this, 2^-36.
+inline constexpr double kFeatureLeastHandle = kOutputStep / 2;
 
 /// Texels: fitted points and middle points stay so far from corners and edges. The coarsest angles, halves, are off by up
 /// to 2^-10, which moves a middle point across a texel by as much; eight times that leaves room for tangents that meet at

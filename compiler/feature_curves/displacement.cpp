@@ -194,6 +194,12 @@ std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves) {
          " ends of feature curves inside a texel end on its boundary instead");
     warn(out, curves.stats.folded + curves.stats.lost_inside, diag::kFeatureLost,
          " feature curves inside a texel, or that fold back in it, don't show there");
+    const auto straightened =
+        std::ranges::find_if(curves.moves, [](const FeatureMove& m) { return (m.kinds & kStraightened) != 0; });
+    if (straightened != curves.moves.end())
+        warn(out, curves.stats.straightened, diag::kFeatureStraightened,
+             " segments of feature curves are straight, and bend where they end: no valid quadratic was found",
+             place_of(*straightened));
     return out;
 }
 

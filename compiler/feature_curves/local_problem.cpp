@@ -261,8 +261,8 @@ void LocalProblem::find_curvature() {
         const auto a = middle(t.segment).at(x.data()) - p, b = middle(*t.like).at(x.data()) - p;
         for (Eigen::Index r = 0; r < n; ++r) {
             for (Eigen::Index c = 0; c < n; ++c) {
-                const double value = a[0].v[r] * b[1].v[c] + b[1].v[r] * a[0].v[c] - a[1].v[r] * b[0].v[c] -
-                                     b[0].v[r] * a[1].v[c];
+                const double value =
+                    a[0].v[r] * b[1].v[c] + b[1].v[r] * a[0].v[c] - a[1].v[r] * b[0].v[c] - b[0].v[r] * a[1].v[c];
                 if (value != 0) curvature_.push_back({static_cast<Eigen::Index>(k), r, c, value});
             }
         }

@@ -71,7 +71,7 @@ bool comes_back(const SegmentCurve& c) {
 
 SignatureFault fault_of(const SegmentCurve& curve) {
     if (distance(curve[0], curve[2]) == 0) return SignatureFault::NoMiddle;
-    if (!inside(curve[1], 0)) return SignatureFault::Outside;
+    if (!inside(curve[1], budget::kFeatureLeastHandle)) return SignatureFault::Outside;
     return passes_safety_test(curve) || !comes_back(curve) ? SignatureFault::None : SignatureFault::SideTest;
 }
 

@@ -96,7 +96,7 @@ SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::ui
 SnappedCurves snap_quadratics(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height,
                               unsigned threads = 1);
 
-/// Warnings 5141 … 5143: what moved by more than kFeatureMoveTold, and what is missing.
+/// Warnings 5141 … 5144: what moved by more than kFeatureMoveTold, what is missing, and what is straight.
 std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves);
 
 /// The texture of straight segments; distances are the limit.

@@ -170,8 +170,8 @@ class Solver {
         return x.dot(task_.hessian * x) / 2 + task_.gradient.dot(x);
     }
 
-    /// The Lagrangian's second derivatives if they are convex, at least where constraints and bounds leave room: what is
-    /// added across these doesn't change the step. Else with as much of the constraints' part as leaves them convex.
+    /// The Lagrangian's second derivatives if they are convex, at least where constraints and bounds leave room: what
+    /// is added across these doesn't change the step. Else with as much of the constraints' part as leaves them convex.
     [[nodiscard]] Matrix convex() const {
         const auto n = x_.size();
         Matrix curvature = Matrix::Zero(n, n);
