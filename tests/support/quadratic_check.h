@@ -89,7 +89,7 @@ inline void check_signatures(const SnappedCurves& c) {
     }
 }
 
-/// A straight segment ends in the tangent of what goes on there in a curve, but next to texels that are reported.
+/// A straight segment ends in the tangent of what goes on there in a curve, but in and next to texels that are reported.
 inline void check_straight_ends(const SnappedCurves& c) {
     constexpr double kTangents = 1e-8;
     std::map<std::pair<std::uint32_t, std::uint32_t>, unsigned> kinds;
@@ -108,6 +108,7 @@ inline void check_straight_ends(const SnappedCurves& c) {
                      {fetex::kFeatureSegments[k].first, fetex::kFeatureSegments[k].second}) {
                     const auto beside = across(c, i, j, e);
                     if (!beside || reported(beside->i, beside->j)) continue;
+                    if (!straight_ends(c, i, j, e).angle) continue; // the input has a corner on the edge
                     const SegmentCurve s = shown_segment(c, i, j, k).curve;
                     if (std::hypot(s[2].x - s[0].x, s[2].y - s[0].y) == 0) continue;
                     const SegmentSet there = c.texel(beside->i, beside->j).curved;
