@@ -414,14 +414,26 @@ inline constexpr double kSilmapChosenError = 1e-3, kPinchmapChosenError = 1e-3;
 /// by less than a cluster, and it lies half of one from its clusters' middles.
 inline constexpr double kPinchmapFarWrong = 1.5;
 /// Square clusters: what a cross costs that the drawing hasn't, for it blurs a cluster of two colours, half of it
-/// wrongly; what a move of the zones must win, less than shows; and what must be unmendable for another fit to pay.
-inline constexpr double kPinchmapCross = 0.5, kPinchmapWorthAMove = 0.1, kPinchmapMuch = 1;
+/// wrongly; what a move of the zones must win, less than shows; and what must be unmendable for a search to pay: as
+/// much.
+inline constexpr double kPinchmapCross = 0.5, kPinchmapWorthAMove = 0.1, kPinchmapMuch = kPinchmapWorthAMove;
+/// Square clusters that lying in a zone costs a corner: a search goes on around those that cost more than the first, a
+/// fifth of what a move must win; one with no side as dear as the second, nearly kPinchmapFarWrong, may be on either.
+inline constexpr double kPinchmapDear = kPinchmapWorthAMove / 5, kPinchmapOpen = 1.2;
+/// Part of what a corner's dearer side costs if its texel is active and needn't be: less than kPinchmapDear of
+/// kPinchmapFarWrong, so that it only decides between zones that cost the same.
+inline constexpr double kPinchmapIdle = 0.002;
+/// Square clusters wrong around 2 x 2 texels: less isn't worth a round of the search for gamma, a hundredth of a move's.
+inline constexpr double kPinchmapWorthARound = kPinchmapWorthAMove / 100;
 /// Square clusters of wrong area around an active texel: up to here it stays sharp, from there on its strength is 0, as
 /// a cross's is.
 inline constexpr double kPinchmapSharpTo = 0.3, kPinchmapSoftFrom = kPinchmapCross;
 /// k − gamma on the wrong side: more is no discontinuity beside its place (a zone's side is 1 from it) but a part that
 /// the map hasn't.
 inline constexpr double kPinchmapFarInside = 0.75;
+/// |k − gamma| of a point on a discontinuity: both are sums of numbers up to 2, each rounded to 2^-53; a sampler that
+/// adds them in another order has it on the other side. A thousand times that.
+inline constexpr double kPinchmapOnTheLine = 1e-12;
 
 /// Weights in the fit of a pinchmap's signal, of the mean weight of a sample. Neighbours on one side are drawn together
 /// by so much: a sample that points tell anything about moves by a fraction of a step of 16 bits, 2^-16. A sample with

@@ -9,6 +9,7 @@
 #include "compiler/bilevel/seed.h"
 #include "compiler/error_budget.h"
 #include "compiler/parallel.h"
+#include "compiler/pinchmap/gamma_search.h"
 
 namespace fetexc {
 namespace {
@@ -62,10 +63,18 @@ PinchLevels::PinchLevels(std::span<const PinchmapTexel> map, PinchmapFormat form
 
 double PinchLevels::gamma(std::uint16_t stored) const { return 1 - 2 * static_cast<double>(stored) / levels_.steps; }
 
+std::vector<std::uint16_t> PinchLevels::stored(std::span<const PinchmapTexel> map) const {
+    std::vector<std::uint16_t> out(map.size());
+    std::ranges::transform(map, out.begin(),
+                           [&](const PinchmapTexel& t) { return levels_.nearest((1 - t.gamma) / 2); });
+    return out;
+}
+
 std::vector<float> PinchLevels::values(std::span<const PinchmapTexel> map) const {
+    const std::vector<std::uint16_t> stored = this->stored(map);
     std::vector<float> out(map.size());
     for (std::size_t k = 0; k < map.size(); ++k)
-        out[k] = levels_.value(k, levels_.nearest((1 - map[k].gamma) / 2));
+        out[k] = levels_.value(k, stored[k]);
     return out;
 }
 
@@ -101,11 +110,49 @@ GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vecto
     return out;
 }
 
+void search_gamma(const GammaProblem& problem, std::uint32_t rounds, std::vector<PinchmapTexel>& map, GammaFit& fit) {
+    const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
+    const PinchLevels pinch(map, problem.format);
+    const Scan scan(problem, outline, active_texels(map), kPolishLines);
+    std::vector<std::uint16_t> stored = pinch.stored(map);
+    FitTrace trace;
+    fit.tried += search_stored(scan.cells, pinch.levels(), rounds, stored, trace);
+    for (const std::uint32_t t : scan.cells.texels())
+        map[t].gamma = pinch.gamma(stored[t]);
+    for (const double wrong : trace)
+        fit.trace.push_back(wrong / (static_cast<double>(problem.width) * problem.height));
+    fit.wrong = wrong_part(problem, map, kVerifyLines);
+}
+
 double wrong_part(const GammaProblem& problem, std::span<const PinchmapTexel> map, std::uint32_t lines) {
     const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
     const Scan scan(problem, outline, active_texels(map), lines);
     const std::vector<float> values = PinchLevels(map, problem.format).values(map);
     return scan.cells.wrong_area(values) / (static_cast<double>(problem.width) * problem.height);
+}
+
+std::vector<SideCosts> side_costs(const GammaProblem& problem, std::span<const PinchmapTexel> map, double far) {
+    const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
+    const Scan scan(problem, outline, active_texels(map), kFitLines);
+    std::vector<float> values = PinchLevels(map, problem.format).values(map);
+    std::vector<SideCosts> out(map.size());
+    for (std::size_t t = 0; t < map.size(); ++t)
+        (map[t].k > map[t].gamma ? out[t].below : out[t].above) = far;
+    const float least = 0.5F / static_cast<float>(fetex::pinchmap_zero(problem.format));
+    for (const std::uint32_t t : scan.cells.texels()) {
+        const auto area = [&] {
+            double sum = 0;
+            for (const std::uint32_t c : scan.cells.around(t))
+                sum += scan.cells.wrong_area_in(values, scan.cells.cells()[c]);
+            return sum;
+        };
+        const float value = values[t];
+        const double now = area();
+        values[t] = value > 0.5F ? 0.5F - least : 0.5F + least;
+        (value > 0.5F ? out[t].below : out[t].above) = std::max(area() - now, 0.0);
+        values[t] = value;
+    }
+    return out;
 }
 
 std::vector<double> wrong_around(const GammaProblem& problem, std::span<const PinchmapTexel> map) {

@@ -12,6 +12,7 @@
 #include "compiler/bilevel/contour_fit.h"
 #include "compiler/bilevel/silhouette.h"
 #include "compiler/bilevel/value_levels.h"
+#include "compiler/pinchmap/zone_mask.h"
 #include "compiler/solver/solver.h"
 #include "formats/pinchmap.h"
 
@@ -24,6 +25,7 @@ class PinchLevels {
 
     [[nodiscard]] const ValueLevels& levels() const { return levels_; }
     [[nodiscard]] double gamma(std::uint16_t stored) const;
+    [[nodiscard]] std::vector<std::uint16_t> stored(std::span<const fetex::PinchmapTexel> map) const;
     /// Of the map's own γ.
     [[nodiscard]] std::vector<float> values(std::span<const fetex::PinchmapTexel> map) const;
 
@@ -51,9 +53,21 @@ struct GammaFit {
 /// discontinuity lies on the outline, then number by number to the least wrong area.
 GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vector<fetex::PinchmapTexel>& map);
 
+/// Then out of the local minimum: so many of gamma_search.h's rounds a texel. fit: of fit_gamma, goes on.
+void search_gamma(const GammaProblem& problem, std::uint32_t rounds, std::vector<fetex::PinchmapTexel>& map,
+                  GammaFit& fit);
+
+/// Of such rounds: what more of them win is less than a hundredth for twice the time.
+inline constexpr std::uint32_t kGammaRounds = 16;
+
 /// Part of the drawing that a map has on the wrong side, exact along `lines` scan lines a cluster; lines: a multiple
 /// of 4.
 double wrong_part(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map, std::uint32_t lines);
+
+/// Of each map texel what it costs to lie inside a zone: how much more would be wrong if e = k − γ were just below or
+/// above 0 there instead of on the side where it is, other texels as they are. Texels whose e no outline comes near:
+/// far.
+std::vector<SideCosts> side_costs(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map, double far);
 
 /// Of each map texel, the square clusters on the wrong side in the clusters around it.
 std::vector<double> wrong_around(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map);

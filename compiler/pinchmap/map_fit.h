@@ -17,8 +17,9 @@ struct MapFit {
     double unmendable = 0; ///< square clusters, about, that are wrong because of the zones
 };
 
-/// Zones by the corners' distances from the outline; if those leave much unmendable others too, by where
-/// discontinuities would run without zones. The map that has less of the drawing on the wrong side.
+/// Zones by the corners' distances from the outline; if those leave much unmendable others too, searched by what each
+/// corner's side costs where discontinuities would run without zones. The map that has less of the drawing on the wrong
+/// side, its γ then searched on.
 MapFit fit_map(const Solver& solver, const GammaProblem& problem);
 
 } // namespace fetexc

@@ -106,7 +106,7 @@ class SignalFitter {
         const bool right = (side > 0) == above;
         if (!right && std::abs(side) >= budget::kPinchmapFarInside) {
             if (sums.lost++ == 0) sums.first_x = x, sums.first_y = row;
-        } else if (!right && !blurred) {
+        } else if ((!right || std::abs(side) < budget::kPinchmapOnTheLine) && !blurred) {
             return;
         }
         const double scale = std::ldexp(1.0, static_cast<int>(t_.scale));

@@ -50,19 +50,13 @@ unsigned pattern_around(const ZoneMask& mask, std::int64_t i, std::int64_t j) {
 }
 
 double cluster_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
+    if (!truth.costs.empty()) return 0;
     const std::size_t at = std::size_t{j} * mask.width + i;
     const std::uint8_t side = mask.above[at];
     const double wrong = side != 0 ? 1 - truth.parts[at] : truth.parts[at];
     if (!(wrong > 0)) return 0;
     const unsigned pattern = pattern_around(mask, i, j);
     return pattern == 0 || pattern == 511 ? wrong : 0;
-}
-
-double corner_error(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
-    const double above = truth.distances[std::size_t{j} * (mask.width + 1) + i];
-    const CornerSides s = sides_around(mask, i, j);
-    if (s.cross()) return budget::kPinchmapCross;
-    return s.active() ? 0 : std::clamp(s.nw != 0 ? -above : above, 0.0, budget::kPinchmapFarWrong);
 }
 
 /// Clusters x … x + width − 1, y … y + height − 1, to one side.
@@ -129,7 +123,7 @@ class Enforcer {
         each(m, 1, [&](std::uint32_t x, std::uint32_t y) { sum += cluster_error(mask_, truth_, x, y); });
         const Move corners{m.x, m.y, m.width + 1, m.height + 1};
         each_in(corners, 0, mask_.width + 1, mask_.height + 1,
-                [&](std::uint32_t x, std::uint32_t y) { sum += corner_error(mask_, truth_, x, y); });
+                [&](std::uint32_t x, std::uint32_t y) { sum += corner_cost(mask_, truth_, x, y); });
         return sum;
     }
     [[nodiscard]] int invalid_around(const Move& m) const {
@@ -239,11 +233,24 @@ bool is_valid_cluster(const ZoneMask& mask, std::uint32_t i, std::uint32_t j) {
     return is_valid(pattern_around(mask, i, j));
 }
 
+double corner_cost(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j) {
+    const std::size_t at = std::size_t{j} * (mask.width + 1) + i;
+    const CornerSides s = sides_around(mask, i, j);
+    if (s.cross()) return budget::kPinchmapCross;
+    if (truth.costs.empty()) {
+        const double above = truth.distances[at];
+        return s.active() ? 0 : std::clamp(s.nw != 0 ? -above : above, 0.0, budget::kPinchmapFarWrong);
+    }
+    const SideCosts& c = truth.costs[at];
+    if (s.active()) return budget::kPinchmapIdle * std::max(c.below, c.above);
+    return s.nw != 0 ? c.above : c.below;
+}
+
 double unmendable(const ZoneMask& mask, const ZoneTruth& truth) {
     double sum = 0;
     for (std::uint32_t j = 0; j <= mask.height; ++j) {
         for (std::uint32_t i = 0; i <= mask.width; ++i) {
-            sum += corner_error(mask, truth, i, j);
+            sum += corner_cost(mask, truth, i, j);
             if (i < mask.width && j < mask.height) sum += cluster_error(mask, truth, i, j);
         }
     }

@@ -39,11 +39,18 @@ ZoneMask majority_mask(std::span<const double> parts, std::uint32_t width, std::
 /// corners that are neighbours. (Paper, §4.4; the last is SPEC's.)
 bool is_valid_cluster(const ZoneMask& mask, std::uint32_t i, std::uint32_t j);
 
+/// What it costs, in square clusters, to lie inside a zone.
+struct SideCosts {
+    double below = 0, above = 0;
+};
+
 /// What the drawing has where the zones may be.
 struct ZoneTruth {
     std::vector<double> parts; ///< of each cluster, that is above, 0 … 1
     std::vector<double>
         distances; ///< of each corner, 0 … width by 0 … height, from the outline, clusters; above 0: above
+    /// Of each corner. If there are any they count alone, distances and parts don't.
+    std::vector<SideCosts> costs;
 };
 
 /// Square clusters, about, that no γ can mend: clusters all of whose neighbours are on their own zone's side count with
@@ -51,6 +58,9 @@ struct ZoneTruth {
 /// those at 1.5). Elsewhere a discontinuity may run up to a cluster beyond its zone (§8). Crosses count as well: they
 /// blur.
 double unmendable(const ZoneMask& mask, const ZoneTruth& truth);
+
+/// Of a corner's sides, and of its texel's being active although one side would do.
+double corner_cost(const ZoneMask& mask, const ZoneTruth& truth, std::uint32_t i, std::uint32_t j);
 
 /// What it cost to keep the constraints.
 struct MaskMoves {

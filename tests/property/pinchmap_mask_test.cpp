@@ -7,6 +7,7 @@
 
 #include "compiler/pinchmap/pinch_frame.h"
 #include "compiler/pinchmap/zone_mask.h"
+#include "compiler/pinchmap/zone_search.h"
 #include "formats/validate.h"
 #include "tests/support/known_pinchmap.h"
 #include "tests/support/random.h"
@@ -88,6 +89,29 @@ TEST(PinchmapMask, noForbiddenNeighbourhoodIsLeft) {
         }
     }
     EXPECT_GT(moves, 500u);
+}
+
+/// Costs of random sides: what a search leaves is valid and no dearer.
+TEST(PinchmapMask, searchedZonesAreValidAndCheaper) {
+    Random random(12);
+    double won = 0;
+    for (int n = 0; n < 40; ++n) {
+        const auto width = static_cast<std::uint32_t>(random.integer(1, 20)),
+                   height = static_cast<std::uint32_t>(random.integer(1, 20));
+        ZoneTruth truth = truth_of(random_parts(random, width, height), width, height);
+        for (const double above : truth.distances)
+            truth.costs.push_back({std::max(above, 0.0) * random.unit(), std::max(-above, 0.0) * random.unit()});
+        ZoneMask mask = majority_mask(truth.parts, width, height);
+        enforce_constraints(mask, truth);
+        ZoneMask again = mask;
+        const double before = unmendable(mask, truth);
+        search_zones(mask, truth, 5), search_zones(again, truth, 5);
+        ASSERT_EQ(mask.above, again.above) << n;
+        ASSERT_TRUE(all_valid(mask)) << n;
+        ASSERT_LE(unmendable(mask, truth), before) << n;
+        won += before - unmendable(mask, truth);
+    }
+    EXPECT_GT(won, 1);
 }
 
 /// Nothing that is valid is changed, and what is_valid_cluster says is what the validator does.

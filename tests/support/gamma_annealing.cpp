@@ -2,8 +2,8 @@
 #include "tests/support/gamma_annealing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "tests/support/random.h"
 
@@ -11,7 +11,6 @@ namespace fetexc::test {
 namespace {
 
 using fetex::PinchmapTexel;
-using Clock = std::chrono::steady_clock;
 
 /// Pixels of cells that match, row by row, for every place where a row may change sides (the paper's table).
 class PixelTable {
@@ -79,8 +78,8 @@ class Annealer {
     }
 
     AnnealingResult run(double seconds) {
-        const Clock::time_point start = Clock::now();
-        const auto passed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+        const double start = processor_seconds();
+        const auto passed = [&] { return processor_seconds() - start; };
         AnnealingResult out;
         for (const auto& [i, j] : places_)
             optimise(i, j);
@@ -206,6 +205,8 @@ class Annealer {
 };
 
 } // namespace
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 AnnealingResult anneal_gamma(const PixelZones& zones, fetex::PinchmapFormat format, double seconds, std::uint64_t seed,
                              std::vector<PinchmapTexel>& map) {

@@ -251,6 +251,7 @@ class SampledPinchmap final : public measure::Picture {
 TEST(PinchmapBuilder, betterThanABitmapOfEightTimesTheMemory) {
     for (const std::uint32_t magnification : {4u, 16u}) {
         double area_logs[2] = {0, 0}, psnr[2] = {0, 0};
+        int better_areas = 0, better_psnrs = 0;
         for (const char* name : kShapes) {
             const Scene scene = art(std::string("alternatives/") + name);
             const PinchmapBuild b = build(scene, options_of(32));
@@ -264,18 +265,23 @@ TEST(PinchmapBuilder, betterThanABitmapOfEightTimesTheMemory) {
             const auto measurer = measure::Measurer::of(*truth.value(), options);
             const SampledPinchmap ours(b.texture);
             const measure::Picture* const pictures[] = {&ours, bitmap.value().get()};
+            measure::SizeErrors errors[2];
             for (std::size_t k = 0; k < 2; ++k) {
-                const measure::SizeErrors e = measurer.value().measure(*pictures[k])[0];
+                const measure::SizeErrors& e = errors[k] = measurer.value().measure(*pictures[k])[0];
                 area_logs[k] += std::log(std::max(e.misclassified_ppm, 1.0)), psnr[k] += e.psnr;
                 std::printf("  x%u %-12s %s %7.0f ppm %6.2f dB\n", magnification, name,
                             k == 0 ? "pinchmap" : "bitmap  ", e.misclassified_ppm, e.psnr);
             }
+            better_areas += errors[0].misclassified_ppm < errors[1].misclassified_ppm;
+            better_psnrs += errors[0].psnr > errors[1].psnr;
         }
         const double count = std::size(kShapes);
         std::printf("  x%u mean: %.0f ppm, %.2f dB; bitmap %.0f ppm, %.2f dB\n", magnification,
                     std::exp(area_logs[0] / count), psnr[0] / count, std::exp(area_logs[1] / count), psnr[1] / count);
-        EXPECT_LT(area_logs[0], area_logs[1]);
-        EXPECT_GT(psnr[0], psnr[1]);
+        EXPECT_LT(area_logs[0], area_logs[1] + count * std::log(0.7));
+        EXPECT_GT(psnr[0], psnr[1] + 5 * count);
+        EXPECT_GE(better_areas, 4); // not gear_logo's corners and yin_yang's ring: compiler/pinchmap/README.md
+        EXPECT_GE(better_psnrs, magnification == 4 ? 5 : 6);
     }
 }
 

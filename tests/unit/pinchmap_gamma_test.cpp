@@ -2,12 +2,13 @@
 /// Where a pinchmap's discontinuities run: on six shapes, against the paper's own search, and through the sampler.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
 
 #include "compiler/pinchmap/gamma_fit.h"
+#include "compiler/pinchmap/map_fit.h"
 #include "compiler/pinchmap/pinch_frame.h"
 #include "compiler/pinchmap/zone_truth.h"
 #include "tests/support/art_scenes.h"
@@ -35,8 +36,7 @@ double mean_wrong(std::uint32_t side, PinchmapFormat format) {
     double logs = 0;
     for (const char* name : kShapes) {
         const Silhouette s = silhouette_of_shape(name);
-        std::vector<PinchmapTexel> map = pinch_frame(zones(s, side));
-        logs += std::log(fit_gamma(solver(), {s, side, side, format, 0}, map).wrong);
+        logs += std::log(fit_map(solver(), {s, side, side, format, 0}).gamma.wrong);
     }
     return std::exp(logs / std::size(kShapes)) * 1e6;
 }
@@ -47,13 +47,21 @@ TEST(PinchmapGamma, sixShapes) {
         std::uint32_t side;
         double bits8, bits16;
     };
-    for (const Bar& bar : {Bar{32, 1420, 1250}, {64, 325, 290}, {128, 81, 67}}) {
+    for (const Bar& bar : {Bar{32, 1150, 1100}, {64, 325, 290}, {128, 81, 67}}) {
         const double bits8 = mean_wrong(bar.side, PinchmapFormat::Bits8),
                      bits16 = mean_wrong(bar.side, PinchmapFormat::Bits16);
         std::printf("  %u clusters: %.1f ppm of 8 bits, %.1f of 16\n", bar.side, bits8, bits16);
         EXPECT_LE(bits8, bar.bits8) << bar.side;
         EXPECT_LE(bits16, bar.bits16) << bar.side;
     }
+}
+
+/// A ring thinner than a cluster, most of whose clusters' sides no rectangle alone makes right.
+TEST(PinchmapGamma, aThinRingStays) {
+    const Silhouette s = silhouette_of_shape("yin_yang");
+    std::vector<PinchmapTexel> greedy = pinch_frame(zones(s, 32));
+    const GammaProblem problem{s, 32, 32, PinchmapFormat::Bits8, 0};
+    EXPECT_LE(fit_map(solver(), problem).gamma.wrong, 0.75 * fit_gamma(solver(), problem, greedy).wrong);
 }
 
 /// The format's own side of each of many points.
@@ -102,31 +110,49 @@ test::PixelZones pixels_of(const Silhouette& s, std::uint32_t side, std::uint32_
 }
 
 /// From 1024² pixels to 32², as in §7.3: a twentieth of the time gets less area wrong than the paper's search, which is
-/// given FETEXC_ANNEALING seconds (2).
+/// given FETEXC_ANNEALING seconds (2) of the processor. The search fits those pixels; nine times as many show what it
+/// has between them.
 TEST(PinchmapGamma, beatsThePapersSearch) {
     const char* const asked = std::getenv("FETEXC_ANNEALING");
     const double seconds = asked != nullptr ? std::atof(asked) : 2;
     for (const char* name : {"glyph_g", "gear_logo"}) {
         const Silhouette s = silhouette_of_shape(name);
-        const test::PixelZones pixels = pixels_of(s, 32, 32);
+        const test::PixelZones pixels = pixels_of(s, 32, 32), more_pixels = pixels_of(s, 32, 96);
         const std::vector<PinchmapTexel> frame = pinch_frame(zones(s, 32));
         std::vector<PinchmapTexel> ours = frame, theirs = frame;
-        const auto start = std::chrono::steady_clock::now();
         const GammaProblem problem{s, 32, 32, PinchmapFormat::Bits8, 1};
-        const double wrong = fit_gamma(solver(), problem, ours).wrong;
-        const double time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double start = test::processor_seconds();
+        GammaFit fit = fit_gamma(solver(), problem, ours);
+        search_gamma(problem, kGammaRounds, ours, fit);
+        const double time = test::processor_seconds() - start;
         const test::AnnealingResult found = test::anneal_gamma(pixels, PinchmapFormat::Bits8, seconds, 1, theirs);
         EXPECT_EQ(found.wrong, test::wrong_pixels(pixels, theirs));
         const double their_wrong = wrong_part(problem, theirs, 64);
-        std::printf("  %s: %.1f ppm in %.3f s; annealing %.1f ppm in %.1f s (%llu rounds); pixels %llu, %llu\n", name,
-                    wrong * 1e6, time, their_wrong * 1e6, found.seconds, static_cast<unsigned long long>(found.rounds),
-                    static_cast<unsigned long long>(test::wrong_pixels(pixels, ours)),
-                    static_cast<unsigned long long>(found.wrong));
-        EXPECT_LE(wrong, their_wrong) << name;
-        if (asked != nullptr) { // a busy machine says nothing about times
-            EXPECT_LE(time, seconds / 20) << name;
-        }
+        std::printf("  %s: %.1f ppm in %.3f s; annealing %.1f ppm in %.1f s (%llu rounds)\n", name, fit.wrong * 1e6,
+                    time, their_wrong * 1e6, found.seconds, static_cast<unsigned long long>(found.rounds));
+        const auto count = [](const test::PixelZones& zones, const std::vector<PinchmapTexel>& map) {
+            return static_cast<unsigned long long>(test::wrong_pixels(zones, map));
+        };
+        std::printf("    wrong of 1024 x 1024 pixels %llu, annealing %llu; of 3072 x 3072 %llu, annealing %llu\n",
+                    count(pixels, ours), count(pixels, theirs), count(more_pixels, ours), count(more_pixels, theirs));
+        EXPECT_LE(fit.wrong, their_wrong) << name;
+        EXPECT_LE(count(more_pixels, ours), count(more_pixels, theirs)) << name;
+        EXPECT_LE(time, std::max(seconds, 20.0) / 20) << name;
     }
+}
+
+/// Out of local minima, for any threads the same.
+TEST(PinchmapGamma, theSearchFindsLess) {
+    const Silhouette s = silhouette_of_shape("gear_logo");
+    const GammaProblem problem{s, 32, 32, PinchmapFormat::Bits8, 1};
+    std::vector<PinchmapTexel> map = pinch_frame(zones(s, 32));
+    GammaFit fit = fit_gamma(solver(), problem, map);
+    const double before = fit.wrong;
+    search_gamma(problem, kGammaRounds, map, fit);
+    EXPECT_LE(fit.wrong, 0.97 * before);
+    EXPECT_EQ(fit.wrong, wrong_part(problem, map, 64));
+    for (const PinchmapTexel& t : map)
+        EXPECT_LT(std::abs(t.gamma), 1);
 }
 
 } // namespace
