@@ -106,8 +106,7 @@ class Search {
             }
         }
         std::ranges::sort(patch_cells_);
-        const auto twice = std::ranges::unique(patch_cells_);
-        patch_cells_.erase(twice.begin(), twice.end());
+        patch_cells_.erase(std::unique(patch_cells_.begin(), patch_cells_.end()), patch_cells_.end());
     }
 
     void perturb(std::uint32_t t) {
