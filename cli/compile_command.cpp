@@ -120,7 +120,7 @@ PinchmapRequest pinchmap_request(const CompileCommandOptions& options, const Ext
 std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
     std::string text = fmt::format("repr={}", fmt::join(options.representations, ","));
     if (compiled.fbt) text += fmt::format(" size={}x{}", compiled.fbt->texture.width, compiled.fbt->texture.height);
-    if (!compiled.features_hash.empty() || options.image.trace)
+    if ((compiled.fbt || compiled.silmap) && (!compiled.features_hash.empty() || options.image.trace))
         text += fmt::format(" invalidate={}", options.image.invalidate);
     if (options.mips) text += " mips";
     if (options.samples != "8") text += " samples=" + options.samples;
@@ -222,7 +222,7 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
     }
     if (makes(options, "pinchmap")) {
         PinchmapRequest request = pinchmap_request(options, picture.features.extent);
-        auto built = compile_pinched(picture.image, request, progress.sink());
+        auto built = compile_pinched(PinchedImage{picture.image, loaded.value().features}, request, progress.sink());
         if (const Status s = add_pinchmap(std::move(built), diagnostics, compiled); !s) return s.error();
     }
     return compiled;
@@ -488,8 +488,8 @@ Command add_compile_command(CLI::App& parent) {
                          {{silmap.max_wrong}, {"silmap", "pinchmap"}},
                          {add_pinchmap_options(*app, options->pinchmap), {"pinchmap"}},
                          {{samples}, {"fbt", "silmap", "pinchmap"}},
-                         {{app->get_option("--features"), app->get_option("--trace"), app->get_option("--invalidate")},
-                          {"fbt", "silmap"}}};
+                         {{app->get_option("--features"), app->get_option("--trace")}, {"fbt", "silmap", "pinchmap"}},
+                         {{app->get_option("--invalidate")}, {"fbt", "silmap"}}};
     add_scene_options(*app, options->scene);
     app->add_option("--no-skip", options->no_skip, "Switch off a rule that leaves out work (tests/bench)")
         ->take_all()

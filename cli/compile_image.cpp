@@ -106,7 +106,8 @@ Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& 
     auto image = read_image(options.image, options.bright, diagnostics);
     if (!image) return image.error();
     RasterImage& pixels = out.picture.image = std::move(image).value();
-    FeatureCurves features{static_cast<double>(pixels.width), static_cast<double>(pixels.height), {}};
+    FeatureCurves& features = out.features;
+    features = {static_cast<double>(pixels.width), static_cast<double>(pixels.height), {}};
     if (!options.features.empty()) {
         const auto drawn = drawn_features(options, scene, threads, out.features_hash, diagnostics);
         if (!drawn) {

@@ -26,6 +26,7 @@ struct ImageOptions {
 
 struct LoadedImage {
     FeaturedImage picture;
+    FeatureCurves features;    ///< the same as curves, in pixels of the image
     std::string source_hash;   ///< of the image, as LoadedScene's
     std::string features_hash; ///< of the features' drawing; empty: none
 };

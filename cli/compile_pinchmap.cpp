@@ -57,7 +57,7 @@ Result<PinchmapBuild> compile_pinched(const Scene& scene, const PinchmapRequest&
     return compile_input(scene, request, progress);
 }
 
-Result<PinchmapBuild> compile_pinched(const RasterImage& image, const PinchmapRequest& request,
+Result<PinchmapBuild> compile_pinched(const PinchedImage& image, const PinchmapRequest& request,
                                       const ProgressSink& progress) {
     return compile_input(image, request, progress);
 }

@@ -34,7 +34,7 @@ struct PinchmapRequest {
 
 /// Errors: those of compile_pinchmap and compile_pinchmap_at_chosen_size.
 Result<PinchmapBuild> compile_pinched(const Scene& scene, const PinchmapRequest& request, const ProgressSink& progress);
-Result<PinchmapBuild> compile_pinched(const RasterImage& image, const PinchmapRequest& request,
+Result<PinchmapBuild> compile_pinched(const PinchedImage& image, const PinchmapRequest& request,
                                       const ProgressSink& progress);
 
 /// For the file's metadata.

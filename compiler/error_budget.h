@@ -436,12 +436,13 @@ inline constexpr double kPinchmapFarInside = 0.75;
 inline constexpr double kPinchmapOnTheLine = 1e-12;
 
 /// Weights in the fit of a pinchmap's signal, of the mean weight of a sample. Neighbours on one side are drawn together
-/// by so much: a sample that points tell anything about moves by a fraction of a step of 16 bits, 2^-16. A sample with
-/// less isn't told anything.
-inline constexpr double kSignalTogether = 1e-6, kSignalUnseen = 1e-6;
+/// by so much: a sample that points tell anything about moves by less than a step of 16 bits, 2^-16, and one that hardly
+/// any do, where strengths taper, doesn't swing beyond its neighbours. A sample with less than the second isn't told
+/// anything.
+inline constexpr double kSignalTogether = 1e-5, kSignalUnseen = 1e-6;
 /// Colours times the mean weight: the largest residual at which the fit ends, a 150th of a step of 16 bits.
 inline constexpr double kSignalResidual = 1e-7;
-/// Of a pixel that mixes two sides, where no other tells a sample's colour: a hundred times what draws neighbours
+/// Of a pixel that mixes two sides, where no other tells a sample's colour: ten times what draws neighbours
 /// together, a ten thousandth of a pixel that doesn't mix.
 inline constexpr double kSignalMixed = 1e-4;
 

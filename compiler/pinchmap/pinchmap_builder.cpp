@@ -2,10 +2,12 @@
 #include "compiler/pinchmap/pinchmap_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/pinchmap/feature_zones.h"
 #include "compiler/pinchmap/map_fit.h"
 #include "compiler/pinchmap/pinchmap_sizes.h"
 #include "compiler/pinchmap/soft_edges.h"
@@ -85,7 +87,11 @@ PinchmapTexture texture_of(const std::vector<PinchmapTexel>& map, const Pinchmap
     PinchmapTexture t;
     t.width = options.size.width, t.height = options.size.height, t.scale = options.scale;
     t.map_format = options.map_format, t.sample_format = options.sample_format;
-    for (const PinchmapTexel& texel : map) {
+    // Of a turn both components are equal, so halves of a step are rounded alike whatever the sign.
+    const double steps = fetex::pinchmap_zero(t.map_format);
+    const auto rounded = [&](double v) { return std::round(v * steps) / steps; };
+    for (PinchmapTexel texel : map) {
+        texel.du = rounded(texel.du), texel.dv = rounded(texel.dv);
         const auto words = fetex::pinchmap_pack(t.map_format, texel);
         t.map.insert(t.map.end(), words.begin(), words.begin() + fetex::pinchmap_words(t.map_format));
     }
@@ -114,6 +120,14 @@ Result<TwoZones> outline_of(const Scene& scene, const PinchmapOptions& options) 
     TwoZones out;
     out.silhouette = std::move(silhouette).value();
     return out;
+}
+
+Result<FeatureZones> zones_of(const PinchedImage& image, const PinchmapOptions& options) {
+    if (!image.features.runs.empty())
+        return feature_zones(image.features, options.size.width, options.size.height, options.threads);
+    auto silhouette = silhouette_of(image.image, options.silhouette.value_or(SilhouetteRule{}));
+    if (!silhouette) return silhouette.error();
+    return FeatureZones{std::move(silhouette).value(), {}};
 }
 
 Error size_error() {
@@ -146,19 +160,23 @@ Result<PinchmapBuild> compile_pinchmap(const Scene& scene, const PinchmapOptions
     return out;
 }
 
-Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapOptions& options,
+Result<PinchmapBuild> compile_pinchmap(const PinchedImage& image, const PinchmapOptions& options,
                                        const ProgressSink& progress) {
     if (out_of_range(options)) return size_error();
     const Result<const Solver*> solver = load_solver();
     if (!solver) return solver.error();
     if (progress) progress("map", 0);
-    const Result<Silhouette> silhouette = silhouette_of(image, options.silhouette.value_or(SilhouetteRule{}));
-    if (!silhouette) return silhouette.error();
+    const auto [width, height] = options.size;
+    const Result<FeatureZones> zones = zones_of(image, options);
+    if (!zones) return zones.error();
+    const Silhouette& silhouette = zones.value().silhouette;
     PinchmapBuild out;
-    std::vector<PinchmapTexel> map = map_of(*solver.value(), silhouette.value(), options, out);
-    out.stats.soft_texels = soften(image, silhouette.value(), options.size.width, options.size.height, map);
+    std::vector<PinchmapTexel> map = map_of(*solver.value(), silhouette, options, out);
+    out.stats.soft_texels = image.features.runs.empty()
+                                ? soften(image.image, silhouette, width, height, map)
+                                : taper(zones.value().closing, image.features, width, height, map);
     out.texture = texture_of(map, options);
-    finish(silhouette.value(), image_painter(image, silhouette.value(), grid_of(options)), options, progress, out);
+    finish(silhouette, image_painter(image.image, silhouette, grid_of(options)), options, progress, out);
     return out;
 }
 
@@ -169,10 +187,10 @@ Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const Scene& scene, const 
                                 [&](const PinchmapOptions& o) { return compile_pinchmap(scene, o, progress); });
 }
 
-Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const RasterImage& image, const PinchmapOptions& options,
+Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const PinchedImage& image, const PinchmapOptions& options,
                                                       std::uint64_t max_bytes, double max_wrong_area,
                                                       const ProgressSink& progress) {
-    const Extent extent{static_cast<double>(image.width), static_cast<double>(image.height)};
+    const Extent extent{static_cast<double>(image.image.width), static_cast<double>(image.image.height)};
     return choose_pinchmap_size(options, extent, {max_bytes, max_wrong_area},
                                 [&](const PinchmapOptions& o) { return compile_pinchmap(image, o, progress); });
 }

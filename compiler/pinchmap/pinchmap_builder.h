@@ -12,6 +12,7 @@
 #include "compiler/pinchmap/lost_edges.h"
 #include "compiler/pinchmap/signal_fit.h"
 #include "compiler/pinchmap/zone_mask.h"
+#include "compiler/raster/feature_scene.h"
 #include "formats/pinchmap.h"
 
 namespace fetexc {
@@ -33,10 +34,11 @@ struct PinchmapStats {
     std::uint64_t edges = 0;         ///< of the outline
     std::uint64_t edges_blurred = 0; ///< visible, between colours of one zone (W5133)
     MaskMoves zones;
-    std::uint64_t active = 0;      ///< map texels where a discontinuity passes
-    std::uint64_t crosses = 0;     ///< of them, where two cross: nothing is pinched (W5132)
-    LostEdges lost_edges;          ///< where edges are blurred for want of clusters (W5131)
-    std::uint64_t soft_texels = 0; ///< of them, where the image's transition is soft: strength below 1
+    std::uint64_t active = 0;  ///< map texels where a discontinuity passes
+    std::uint64_t crosses = 0; ///< of them, where two cross: nothing is pinched (W5132)
+    LostEdges lost_edges;      ///< where edges are blurred for want of clusters (W5131)
+    std::uint64_t soft_texels =
+        0; ///< of them, where the image's transition is soft, or a feature ends: strength below 1
     GammaFit gamma;
     SignalFit signal;
     double unmendable = 0; ///< square clusters, about, that are wrong because of the zones
@@ -50,10 +52,17 @@ struct PinchmapBuild {
     std::vector<Diagnostic> diagnostics;
 };
 
-/// Errors: kSizeOutOfRange; those of silhouette_of, visible_edges and load_solver.
+/// An image, and features over it: without any (no runs) its own transition says where the discontinuities are
+/// (options.silhouette), else the features alone (feature_zones.h).
+struct PinchedImage {
+    const RasterImage& image;
+    const FeatureCurves& features;
+};
+
+/// Errors: kSizeOutOfRange; those of silhouette_of, visible_edges, feature_zones and load_solver.
 Result<PinchmapBuild> compile_pinchmap(const Scene& scene, const PinchmapOptions& options,
                                        const ProgressSink& progress = {});
-Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapOptions& options,
+Result<PinchmapBuild> compile_pinchmap(const PinchedImage& image, const PinchmapOptions& options,
                                        const ProgressSink& progress = {});
 
 /// At a size of its own choice; options.size is ignored.
@@ -65,7 +74,7 @@ Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapO
 Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const Scene& scene, const PinchmapOptions& options,
                                                       std::uint64_t max_bytes, double max_wrong_area,
                                                       const ProgressSink& progress = {});
-Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const RasterImage& image, const PinchmapOptions& options,
+Result<PinchmapBuild> compile_pinchmap_at_chosen_size(const PinchedImage& image, const PinchmapOptions& options,
                                                       std::uint64_t max_bytes, double max_wrong_area,
                                                       const ProgressSink& progress = {});
 

@@ -17,17 +17,6 @@ std::optional<CanvasSegment> way_out(const CanvasPoint& p, double width, double 
     return CanvasSegment{1, {p, {p.x + dx, p.y + dy}}};
 }
 
-/// With its ends on the border, or beyond it, prolonged: textures whose texels lie half outside have no end there.
-CanvasContour prolonged(const CanvasContour& run, double width, double height) {
-    const CanvasPoint first = run.front().p[0], last = run.back().p[static_cast<std::size_t>(run.back().degree)];
-    if (first.x == last.x && first.y == last.y) return run;
-    CanvasContour out;
-    if (const auto way = way_out(first, width, height)) out.push_back({1, {way->p[1], way->p[0]}});
-    out.insert(out.end(), run.begin(), run.end());
-    if (const auto way = way_out(last, width, height)) out.push_back(*way);
-    return out;
-}
-
 /// There and back, so that it is closed; a lone line twice, as one pair of lines would be dropped as empty.
 CanvasContour there_and_back(const CanvasContour& run) {
     CanvasContour out = run;
@@ -58,6 +47,17 @@ void keep_each_once(std::vector<Segment>& segments) {
 }
 
 } // namespace
+
+// Textures whose texels lie half outside have no end there.
+CanvasContour prolonged(const CanvasContour& run, double width, double height) {
+    const CanvasPoint first = run.front().p[0], last = run.back().p[static_cast<std::size_t>(run.back().degree)];
+    if (first.x == last.x && first.y == last.y) return run;
+    CanvasContour out;
+    if (const auto way = way_out(first, width, height)) out.push_back({1, {way->p[1], way->p[0]}});
+    out.insert(out.end(), run.begin(), run.end());
+    if (const auto way = way_out(last, width, height)) out.push_back(*way);
+    return out;
+}
 
 Result<Scene> feature_scene(const FeatureCurves& features, std::uint32_t image_width, std::uint32_t image_height) {
     SceneBuilder builder(image_width, image_height);

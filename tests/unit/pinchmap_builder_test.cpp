@@ -31,6 +31,13 @@ PinchmapOptions options_of(std::uint32_t side, std::uint32_t scale = 0) {
     return options;
 }
 
+/// Without features.
+const FeatureCurves kNoFeatures;
+
+Result<PinchmapBuild> compile_pinchmap(const RasterImage& image, const PinchmapOptions& options) {
+    return fetexc::compile_pinchmap(PinchedImage{image, kNoFeatures}, options);
+}
+
 template <class Input> PinchmapBuild build(const Input& input, const PinchmapOptions& options) {
     auto made = compile_pinchmap(input, options);
     EXPECT_TRUE(made.ok()) << made.error().message;
@@ -197,6 +204,76 @@ TEST(PinchmapBuilder, softTransitionsArentCut) {
     };
     EXPECT_GT(step(hard), 0.95);
     EXPECT_LT(step(soft), 0.2);
+}
+
+/// Bright above and dark below y = 256 on the left, less and less so up to x = 320; one grey on the right of that.
+RasterImage crease() {
+    return test::image_of(512, 512, [](double x, double y) {
+        const double contrast = std::clamp((320 - x) / 200, 0.0, 1.0);
+        return test::grey(0.5 + (y < 256 ? 0.4 : -0.4) * contrast);
+    });
+}
+
+PinchmapBuild build_featured(const RasterImage& image, std::vector<CanvasContour> runs) {
+    const FeatureCurves features{static_cast<double>(image.width), static_cast<double>(image.height), std::move(runs)};
+    auto made = fetexc::compile_pinchmap(PinchedImage{image, features}, options_of(32));
+    EXPECT_TRUE(made.ok()) << made.error().message;
+    const auto findings = fetex::validate_pinchmap(made.value().texture, 1);
+    EXPECT_TRUE(findings.empty()) << findings[0].message;
+    return std::move(made).value();
+}
+
+/// A feature that ends in the image: sharp where it begins, at the border, and no longer where it ends.
+TEST(PinchmapBuilder, openFeaturesTaper) {
+    const PinchmapBuild b = build_featured(crease(), {test::polyline({{0, 256}, {320, 256}})});
+    const auto step = [&](double x) {
+        return fetex::pinchmap_sample(b.texture, x, 15.99).r - fetex::pinchmap_sample(b.texture, x, 16.01).r;
+    };
+    const auto strength = [&](std::uint32_t i) {
+        const fetex::PinchmapTexel t = fetex::pinchmap_texel(b.texture, i, 16);
+        return t.k == 0 ? std::max(std::abs(t.du), std::abs(t.dv)) : 0;
+    };
+    EXPECT_NEAR(step(0.5), 0.8, 0.01);
+    EXPECT_NEAR(step(15.5), 0.8 * (320 - 248) / 200, 0.02);
+    EXPECT_LE(std::abs(step(20)), 0.02);
+    for (std::uint32_t i = 0; i <= 18; ++i)
+        EXPECT_EQ(strength(i), 1) << i;
+    EXPECT_NEAR(strength(19), 0.5, 0.01);
+    EXPECT_EQ(strength(20), 0);
+    EXPECT_GT(b.stats.soft_texels, 10u);
+    // What closes it pinches nothing: the picture is the image there.
+    double largest = 0;
+    for (double y = 4; y < 28; y += 0.17) {
+        for (double x = 17; x < 31; x += 0.19) {
+            const double contrast = std::clamp((20 - x) / 12.5, 0.0, 1.0),
+                         truth = 0.5 + (y < 16 ? 0.4 : -0.4) * contrast;
+            largest = std::max(largest, std::abs(fetex::pinchmap_sample(b.texture, x, y).r - truth));
+        }
+    }
+    EXPECT_LE(largest, 0.15); // half of what fades within the last two clusters
+}
+
+/// From border to border nothing has to be closed inside; closed curves don't either, and one in another is a hole.
+TEST(PinchmapBuilder, featuresFromBorderToBorderArentSoft) {
+    const RasterImage image =
+        test::image_of(512, 512, [](double x, double y) { return test::grey(x + 0.3 * y < 300 ? 0.9 : 0.2); });
+    const PinchmapBuild b = build_featured(image, {test::polyline({{300, 0}, {300 - 0.3 * 512, 512}})});
+    EXPECT_EQ(b.stats.soft_texels, 0u);
+    EXPECT_GT(b.stats.active, 30u);
+    EXPECT_LE(b.stats.wrong_area * 1e6, 300);
+    const std::vector<CanvasPoint> outer{{90, 90}, {420, 90}, {420, 420}, {90, 420}, {90, 90}},
+        inner{{200, 200}, {200, 310}, {310, 310}, {310, 200}, {200, 200}};
+    const PinchmapBuild ring = build_featured(test::image_of(512, 512,
+                                                             [](double x, double y) {
+                                                                 const double d =
+                                                                     std::max(std::abs(x - 255), std::abs(y - 255));
+                                                                 return test::grey(d < 165 && d > 55 ? 0.1 : 0.8);
+                                                             }),
+                                              {test::polyline(outer), test::polyline(inner)});
+    EXPECT_EQ(ring.stats.soft_texels, 0u);
+    EXPECT_NEAR(fetex::pinchmap_sample(ring.texture, 16, 16).r, 0.8, 0.01);
+    EXPECT_NEAR(fetex::pinchmap_sample(ring.texture, 8, 16).r, 0.1, 0.01);
+    EXPECT_NEAR(fetex::pinchmap_sample(ring.texture, 2, 2).r, 0.8, 0.01);
 }
 
 /// The paper's case, §7.3: as good as from the drawing, and no pixel that mixes both sides gets into the signal.
