@@ -172,7 +172,11 @@ double distance_without(const FeatureTexel& texel, const CornerValues& d, Featur
 
 FeatureRegion feature_region(const FeatureTexel& texel, const CornerValues& distances, FeaturePoint p) {
     const std::uint32_t count = texel.segments.count;
-    if (count == 0) return {kFeatureAllCorners, kFeatureAllCorners, distance_without(texel, distances, p)};
+    if (count == 0) {
+        FeatureRegion out;
+        out.distance = distance_without(texel, distances, p);
+        return out;
+    }
     std::array<Placed, 2> placed;
     std::array<Side, 2> sides;
     std::uint32_t reached = kFeatureAllCorners;
@@ -182,21 +186,22 @@ FeatureRegion feature_region(const FeatureTexel& texel, const CornerValues& dist
         reached &= sides[k].corners;
     }
     FeatureRegion out;
-    std::uint32_t nearest = 0;
+    std::array<double, 2> along{};
     for (std::uint32_t k = 0; k < count; ++k) {
         CornerValues values{};
         for (std::uint32_t c = 0; c < kFeatureCorners; ++c) {
             const std::uint32_t corner = placed[k].frame.from(c);
             values[c] = reached == 0 || has(reached, corner) ? distances[corner] : stand_in(placed[k], c);
         }
-        const double d = distance_along(placed[k], sides[k], Border(texel, placed[k].frame, values), values);
-        if (k == 0 || d < out.distance) out.distance = d, nearest = k;
+        along[k] = distance_along(placed[k], sides[k], Border(texel, placed[k].frame, values), values);
+        const std::uint32_t beyond = kFeatureAllCorners & ~sides[k].corners,
+                            others = count == 2 ? beyond & sides[1 - k].corners : beyond;
+        out.across[k] = others != 0 ? others : beyond;
     }
+    out.distance = count == 2 ? std::min(along[0], along[1]) : along[0];
+    if (count == 2 && along[0] + along[1] > 0) out.second = along[0] / (along[0] + along[1]);
     // Segments that cross where they shouldn't leave parts without a corner: there the first decides alone.
     out.corners = reached != 0 ? reached : sides[0].corners;
-    const std::uint32_t beyond = kFeatureAllCorners & ~sides[nearest].corners;
-    const std::uint32_t others = count == 2 ? beyond & sides[1 - nearest].corners : beyond;
-    out.across = others != 0 ? others : beyond;
     return out;
 }
 

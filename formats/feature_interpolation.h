@@ -23,7 +23,9 @@ struct FeatureTexel {
 /// Where a point lies, and what that means for the maps.
 struct FeatureRegion {
     std::uint32_t corners = kFeatureAllCorners; ///< the set of those it reaches
-    std::uint32_t across = kFeatureAllCorners;  ///< those on the other side of the nearest segment
+    /// Those on the other side of each segment, and how much the second one's count: the nearer, the more.
+    std::array<std::uint32_t, 2> across = {kFeatureAllCorners, kFeatureAllCorners};
+    double second = 0;
     double distance = 0;
 };
 FeatureRegion feature_region(const FeatureTexel& texel, const std::array<double, 4>& distances, FeaturePoint p);

@@ -105,7 +105,11 @@ FeatureAt feature_at_local(const FeatureCurvesTexture& t, std::uint32_t i, std::
     }
     const auto base = [&](std::uint32_t c) { return feature_base(t, i + (c & 1), j + (c >> 1)); };
     out.base = weighted(weights, base);
-    out.across = region.across == region.corners ? out.base : weighted(feature_weights(texel, region.across, p), base);
+    out.across = out.base;
+    if (texel.segments.count == 0) return out;
+    out.across = weighted(feature_weights(texel, region.across[0], p), base);
+    if (texel.segments.count == 2)
+        out.across = mix(out.across, weighted(feature_weights(texel, region.across[1], p), base), region.second);
     return out;
 }
 

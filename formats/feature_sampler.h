@@ -12,7 +12,7 @@ struct FeatureAt {
     double distance = 0;    ///< texels, 0 … limit, exactly 0 on curves
     FeatureVector gradient; ///< of the distance
     FbtColor base;          ///< of the base map
-    FbtColor across;        ///< likewise, as if the point lay across the nearest segment of its texel; else base
+    FbtColor across;        ///< likewise, across the segments of its texel, the nearer counting more; else base
 };
 FeatureAt feature_at(const FeatureCurvesTexture& t, double x, double y);
 /// For a point given as texel (i,j) of the texture plus local offset in [0,1] (deep zoom).

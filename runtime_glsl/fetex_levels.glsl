@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 // What samplers share: which mip levels a pixel takes, interpolation in full precision, and soft edges. Goes once, after a
-// prelude, before fetex_fbt_mip.glsl, fetex_bilevel.glsl, fetex_silmap.glsl and fetex_pinchmap.glsl. Level 0 is the size of the
-// texture, level k the chunk FBTM, BLVM, SLMM or PNCM of level k and GL's level k - 1.
+// prelude, before fetex_fbt_mip.glsl, fetex_bilevel.glsl, fetex_silmap.glsl, fetex_pinchmap.glsl and fetex_feature_curves.glsl. Level 0
+// is the size of the texture, level k the chunk FBTM, BLVM, SLMM, PNCM or FCVM of level k and GL's level k - 1.
 
 // Rounded down, exactly; for v > 0.
 int fetexLog2(float v) { return (floatBitsToInt(v) >> 23) - 127; }

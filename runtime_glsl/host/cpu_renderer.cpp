@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "formats/fbt_mip.h"
+#include "formats/feature_sampler.h"
 #include "runtime_glsl/host/renderer.h"
 #include "runtime_glsl/host/sample_grid.h"
 
@@ -169,6 +170,26 @@ Outcome<Image> render_cpu(const PinchmapTexture& texture, const View& view, cons
         const auto [j, fy] = base_and_local(y, texture.height);
         const FbtColor c = mips ? pinchmap_sample_mip(texture, i + fx, j + fy, {sides.x, sides.y})
                                 : pinchmap_sample_area_local(texture, i, j, fx, fy, sample);
+        return {c.r, c.g, c.b, c.a};
+    });
+}
+
+Outcome<Image> render_cpu(const FeatureCurvesTexture& texture, const View& view, const RenderSize& size,
+                          unsigned threads) {
+    if (auto bad = check_view(view, size)) return *bad;
+    const bool mips = !texture.mips.empty() && wants_mips(view, size, texture.width, texture.height);
+    const std::uint32_t supersample = mips ? 1 : size.supersample;
+    const ImageAxis columns(view.x, view.w, texture.width, size.width, supersample);
+    const ImageAxis rows(view.y, view.h, texture.height, size.height, supersample);
+    const PixelSides sides = pixel_sides(view, size, texture.width, texture.height);
+    const auto [width, height] = sides_of_sample(columns, rows);
+    const FeaturePixel sample = size.filter == Filter::Point ? FeaturePixel{} : FeaturePixel{width, height};
+    const RenderSize drawn{size.width, size.height, supersample};
+    return render_samples(columns, rows, drawn, threads, [&](std::int64_t x, std::int64_t y) -> Rgba {
+        const auto [i, fx] = base_and_local(x, texture.width);
+        const auto [j, fy] = base_and_local(y, texture.height);
+        const FbtColor c = mips ? feature_sample_mip(texture, i + fx, j + fy, {sides.x, sides.y})
+                                : feature_sample_area_local(texture, i, j, fx, fy, sample);
         return {c.r, c.g, c.b, c.a};
     });
 }

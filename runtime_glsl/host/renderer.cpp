@@ -149,6 +149,10 @@ Outcome<Layer> Renderer::State::bind(Sampler sampler) {
     case Sampler::PinchmapArea:
     case Sampler::PinchmapMips:
         return bind_pinchmap(sampler);
+    case Sampler::FeatureCurves:
+    case Sampler::FeatureCurvesArea:
+    case Sampler::FeatureCurvesMips:
+        return bind_feature_curves(sampler);
     }
     const BilevelProgram kind = sampler == Sampler::Bilevel       ? BilevelProgram::Hard
                                 : sampler == Sampler::BilevelArea ? BilevelProgram::Soft

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
-/// Draws an FBT, a bi-level texture, a silhouette-map texture, a pinchmap, or a plain bitmap to compare them with, off
-/// screen. No
-/// GL library is linked: a back end is opened with dlopen when it is asked for. Every pixel centre is computed in 32.32
-/// fixed point (sample_grid.h), on the GPU and on the CPU alike: a view may be as deep as wanted.
+/// Draws an FBT, a bi-level texture, a silhouette-map texture, a pinchmap, a texture with feature curves, or a plain
+/// bitmap to compare them with, off screen. No GL library is linked: a back end is opened with dlopen when it is asked
+/// for. Every pixel centre is computed in 32.32 fixed point (sample_grid.h), on the GPU and on the CPU alike: a view
+/// may be as deep as wanted.
 #pragma once
 
 #include <memory>
@@ -43,15 +43,18 @@ enum class Sampler : std::uint8_t {
     FbtMips,  ///< the FBT's mip chain, whatever the view
     Bilinear, ///< the bitmap through the hardware's LINEAR filter: the plain lookup that costs are compared with
     Field,
-    Bilevel,      ///< the bi-level texture, cut hard
-    BilevelArea,  ///< cut softly
-    BilevelMips,  ///< its levels, whatever the view
-    Silmap,       ///< the silhouette-map texture at points
-    SilmapArea,   ///< over pixels
-    SilmapMips,   ///< its levels, whatever the view
-    Pinchmap,     ///< the pinchmap at points
-    PinchmapArea, ///< over pixels
-    PinchmapMips, ///< its levels, whatever the view
+    Bilevel,           ///< the bi-level texture, cut hard
+    BilevelArea,       ///< cut softly
+    BilevelMips,       ///< its levels, whatever the view
+    Silmap,            ///< the silhouette-map texture at points
+    SilmapArea,        ///< over pixels
+    SilmapMips,        ///< its levels, whatever the view
+    Pinchmap,          ///< the pinchmap at points
+    PinchmapArea,      ///< over pixels
+    PinchmapMips,      ///< its levels, whatever the view
+    FeatureCurves,     ///< the texture with feature curves at points
+    FeatureCurvesArea, ///< over pixels
+    FeatureCurvesMips, ///< its levels, whatever the view
 };
 
 /// How a bi-level texture is interpolated.
@@ -110,6 +113,12 @@ class Renderer {
     /// Filter::Point samples points, Area and ExactArea, which is one and the same, pixels.
     Outcome<Image> render_pinchmap(const View& view, const RenderSize& size);
 
+    /// Uploads the texture and builds the shader that it needs. Precondition: the texture passes
+    /// validate_feature_curves.
+    RuntimeStatus upload_feature_curves(const FeatureCurvesTexture& texture);
+    /// Filter::Point samples points, Area and ExactArea, which is one and the same, pixels.
+    Outcome<Image> render_feature_curves(const View& view, const RenderSize& size);
+
     /// A bitmap, premultiplied RGBA8, row-major, top row first; texel centres at (i+1/2, j+1/2), as GL has them.
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     [[nodiscard]] bool has_bitmap() const;
@@ -144,6 +153,9 @@ Outcome<Image> render_cpu(const SilmapTexture& texture, const View& view, const 
                           SilmapFilter filter = SilmapFilter::Filtered, unsigned threads = 0);
 /// The same through pinchmap_sample_local, pinchmap_sample_area_local or pinchmap_sample_mip.
 Outcome<Image> render_cpu(const PinchmapTexture& texture, const View& view, const RenderSize& size,
+                          unsigned threads = 0);
+/// The same through feature_sample_local, feature_sample_area_local or feature_sample_mip.
+Outcome<Image> render_cpu(const FeatureCurvesTexture& texture, const View& view, const RenderSize& size,
                           unsigned threads = 0);
 /// As Renderer::render_bitmap, on the CPU.
 Outcome<Image> render_bitmap_cpu(std::span<const std::uint8_t> rgba8, std::uint32_t bitmap_width,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 /// What a renderer holds. Internal to the host library; one file defines the part of each representation
-/// (renderer_fbt.cpp, renderer_bilevel.cpp, renderer_silmap.cpp, renderer_pinchmap.cpp), renderer.cpp the rest. A
+/// (renderer_fbt.cpp, renderer_bilevel.cpp, renderer_silmap.cpp, renderer_pinchmap.cpp, renderer_feature_curves.cpp),
+/// renderer.cpp the rest. A
 /// context is current in every function.
 #pragma once
 
@@ -47,6 +48,15 @@ struct PinchmapLayer {
 };
 enum class PinchmapProgram : std::uint8_t { Point, Area, Mips };
 
+/// A texture with feature curves as it was uploaded.
+struct FeatureCurvesLayer {
+    std::array<Program, 3> programs;  ///< by FeatureCurvesProgram; compiled when they are first wanted
+    std::array<GLuint, 6> textures{}; ///< by unit
+    FeatureCurvesTraits traits;
+    std::uint32_t width = 0, height = 0;
+};
+enum class FeatureCurvesProgram : std::uint8_t { Point, Area, Mips };
+
 struct Renderer::State {
     std::unique_ptr<GlContext> context;
     RendererOptions options;
@@ -63,6 +73,7 @@ struct Renderer::State {
     BilevelLayer bilevel;
     SilmapLayer silmap;
     PinchmapLayer pinchmap;
+    FeatureCurvesLayer feature_curves;
 
     [[nodiscard]] const GladGLContext& gl() const { return context->gl; }
     RuntimeStatus set_up();
@@ -108,6 +119,17 @@ struct Renderer::State {
     RuntimeStatus upload_pinchmap(const PinchmapTexture& texture, PinchmapFetch fetch);
     void bind_pinchmap() const;
     Outcome<Layer> bind_pinchmap(Sampler sampler);
+    RuntimeStatus check_feature_curves(const FeatureCurvesTexture& texture) const;
+    void delete_feature_curves();
+    Outcome<Program> build_feature_curves(const FeatureCurvesTraits& traits, FeatureCurvesProgram kind) const;
+    RuntimeStatus need_feature_curves_program(FeatureCurvesProgram kind);
+    [[nodiscard]] const Program& feature_curves_program(FeatureCurvesProgram kind) const {
+        return feature_curves.programs[static_cast<std::size_t>(kind)];
+    }
+    void upload_feature_numbers(const FeatureCurvesTexture& texture);
+    RuntimeStatus upload_feature_curves(const FeatureCurvesTexture& texture);
+    void bind_feature_curves() const;
+    Outcome<Layer> bind_feature_curves(Sampler sampler);
     RuntimeStatus need_bitmap_programs();
     RuntimeStatus upload_bitmap(std::span<const std::uint8_t> rgba8, std::uint32_t width, std::uint32_t height);
     RuntimeStatus check_bitmap(std::size_t values, std::uint32_t channels, std::uint32_t width,

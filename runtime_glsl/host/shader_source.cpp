@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0 OR MIT
 #include "runtime_glsl/host/shader_source.h"
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cstring>
 
+#include "formats/fbt_samples.h"
+#include "formats/feature_sampler.h"
 #include "runtime_glsl/host/embedded_shaders.h"
 #include "runtime_glsl/host/renderer.h"
 
@@ -185,6 +188,52 @@ std::string pinchmap_fragment_source(Dialect dialect, const PinchmapTexture& tex
 std::string pinchmap_mip_fragment_source(Dialect dialect, const PinchmapTexture& texture, bool filtered) {
     return pinchmap_library_source(dialect, texture, filtered) + define("FETEX_VIEW_FOOTPRINT", 1) +
            file_text("view.glsl") + file_text("pinchmap_mip.frag.glsl");
+}
+
+FeatureCurvesTraits feature_curves_traits(const FeatureCurvesTexture& t) {
+    FeatureCurvesTraits traits;
+    traits.kind = t.kind, traits.base_format = t.base_format;
+    traits.distance_limit = t.distance_limit, traits.height_scale = t.height_scale;
+    traits.linear = t.linear, traits.bits16 = t.format == FeatureNumberFormat::Bits16;
+    traits.gradients = !t.gradients.empty(), traits.mips = !t.mips.empty();
+    traits.one_sample = t.base.size() == fbt_sample_words(silmap_fbt_format(t.base_format));
+    for (std::uint32_t j = 0; j < t.height; ++j) {
+        for (std::uint32_t i = 0; i < t.width; ++i) {
+            const FeatureSegmentList list = feature_unpack(t.configurations[std::size_t{j} * t.width + i]);
+            traits.segments = std::max(traits.segments, list.count);
+            for (std::uint32_t k = 0; k < list.count; ++k)
+                traits.curves |= !t.linear && !list.straight[k];
+            traits.open |= feature_open_edges(t, i, j) != 0;
+        }
+    }
+    return traits;
+}
+
+std::string feature_curves_specialisation(const FeatureCurvesTraits& t) {
+    return define("FETEX_FEATURE_KIND", static_cast<std::uint32_t>(t.kind)) +
+           define("FETEX_FEATURE_LIMIT", real(t.distance_limit)) + define("FETEX_FEATURE_LINEAR", t.linear) +
+           define("FETEX_FEATURE_BITS16", t.bits16) + define("FETEX_FEATURE_GRADIENTS", t.gradients) +
+           define("FETEX_FEATURE_SEGMENTS", t.segments) + define("FETEX_FEATURE_CURVES", t.curves) +
+           define("FETEX_FEATURE_OPEN", t.open) +
+           define("FETEX_FEATURE_SAMPLES", t.base_format == FeatureSampleFormat::Rgba16) +
+           define("FETEX_FEATURE_ONE_SAMPLE", t.one_sample) +
+           define("FETEX_FEATURE_NORMAL_FACTOR", real(feature_normal_factor(t.base_format))) +
+           define("FETEX_FEATURE_HEIGHT_SCALE", real(t.height_scale)) + define("FETEX_FEATURE_MIPS", t.mips);
+}
+
+std::string feature_curves_library_source(Dialect dialect, const FeatureCurvesTraits& traits) {
+    return shader_prelude(dialect) + feature_curves_specialisation(traits) +
+           (traits.mips ? file_text("fetex_levels.glsl") : "") + file_text("fetex_feature_curves.glsl");
+}
+
+std::string feature_curves_fragment_source(Dialect dialect, const FeatureCurvesTraits& traits, Filter filter) {
+    return feature_curves_library_source(dialect, traits) + file_text("view.glsl") +
+           file_text(filter == Filter::Point ? "feature_curves.frag.glsl" : "feature_curves_area.frag.glsl");
+}
+
+std::string feature_curves_mip_fragment_source(Dialect dialect, const FeatureCurvesTraits& traits) {
+    return feature_curves_library_source(dialect, traits) + define("FETEX_VIEW_FOOTPRINT", 1) + file_text("view.glsl") +
+           file_text("feature_curves_mip.frag.glsl");
 }
 
 std::string bitmap_fragment_source(Dialect dialect) {

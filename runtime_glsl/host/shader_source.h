@@ -8,6 +8,7 @@
 
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/feature_curves.h"
 #include "formats/pinchmap.h"
 #include "formats/silmap.h"
 #include "runtime_glsl/host/image.h"
@@ -60,10 +61,30 @@ std::string pinchmap_specialisation(const PinchmapTexture& texture, bool filtere
 /// Prelude, specialisation, fetex_levels.glsl and fetex_pinchmap.glsl, to be followed by a fragment shader.
 std::string pinchmap_library_source(Dialect dialect, const PinchmapTexture& texture, bool filtered = false);
 
+/// What shaders depend on of a texture with feature curves.
+struct FeatureCurvesTraits {
+    FeatureKind kind = FeatureKind::Color;
+    FeatureSampleFormat base_format = FeatureSampleFormat::Rgba8;
+    float distance_limit = 1, height_scale = 1;
+    bool linear = false, bits16 = false; ///< of its numbers
+    bool gradients = false, one_sample = false, mips = false;
+    std::uint32_t segments = 0;        ///< most in a texel
+    bool curves = false, open = false; ///< some segment isn't straight; some edge is open
+    friend bool operator==(const FeatureCurvesTraits&, const FeatureCurvesTraits&) = default;
+};
+FeatureCurvesTraits feature_curves_traits(const FeatureCurvesTexture& texture);
+
+/// The macros that fit fetex_feature_curves.glsl to an asset.
+std::string feature_curves_specialisation(const FeatureCurvesTraits& traits);
+
+/// Prelude, specialisation, with levels fetex_levels.glsl, and fetex_feature_curves.glsl, to be followed by a fragment
+/// shader.
+std::string feature_curves_library_source(Dialect dialect, const FeatureCurvesTraits& traits);
+
 /// Complete shaders of the host: a triangle over the viewport, the FBT, the FBT with its mip chain, the bi-level
 /// texture without its levels (Point: cut hard, else softly) and with them, the silhouette-map texture likewise (Point:
-/// at points, else over pixels), the pinchmap likewise, the bitmap in full precision, the bitmap
-/// through the hardware filter, and a one-channel field (renderer.h).
+/// at points, else over pixels), the pinchmap and the texture with feature curves likewise, the bitmap in full
+/// precision, the bitmap through the hardware filter, and a one-channel field (renderer.h).
 std::string view_vertex_source(Dialect dialect);
 std::string fbt_fragment_source(Dialect dialect, const FbtTexture& texture, bool texture_buffer = false,
                                 Filter filter = Filter::Point);
@@ -79,6 +100,9 @@ std::string silmap_mip_fragment_source(Dialect dialect, const SilmapTexture& tex
 std::string pinchmap_fragment_source(Dialect dialect, const PinchmapTexture& texture, Filter filter = Filter::Point,
                                      bool filtered = false);
 std::string pinchmap_mip_fragment_source(Dialect dialect, const PinchmapTexture& texture, bool filtered = false);
+std::string feature_curves_fragment_source(Dialect dialect, const FeatureCurvesTraits& traits,
+                                           Filter filter = Filter::Point);
+std::string feature_curves_mip_fragment_source(Dialect dialect, const FeatureCurvesTraits& traits);
 std::string bitmap_fragment_source(Dialect dialect);
 std::string filtered_bitmap_fragment_source(Dialect dialect);
 std::string field_fragment_source(Dialect dialect, const Field& field);

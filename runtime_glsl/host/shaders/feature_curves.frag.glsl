@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0 OR MIT
+vec4 fetexSampleAt(ivec2 base, vec2 local) {
+    fetexClampPosition(base, local, fetexFeatureSize());
+    return fetexFeatureSampleTexel(base, local);
+}
