@@ -457,6 +457,109 @@ TEST_F(Shaders, ofPinchmapsHaveWhatTheAssetNeeds) {
             ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
 }
 
+/// Everything that shaders tell apart: kinds and numbers; segments, curves and open edges; levels.
+std::vector<FeatureCurvesTraits> all_feature_curves() {
+    std::vector<FeatureCurvesTraits> all;
+    for (const FeatureKind kind : {FeatureKind::Color, FeatureKind::Normal, FeatureKind::Height}) {
+        for (std::uint32_t segments = 0; segments <= 2; ++segments) {
+            for (std::uint32_t switches = segments % 2; switches < 8; switches += 2 + segments % 2) {
+                FeatureCurvesTraits t;
+                t.kind = kind, t.segments = segments, t.distance_limit = 4;
+                t.linear = (switches & 1u) != 0, t.curves = !t.linear && segments > 0;
+                t.open = (switches & 2u) != 0, t.mips = (switches & 4u) != 0;
+                t.bits16 = (switches + segments) % 3 == 0, t.one_sample = (switches + segments) % 2 == 0;
+                t.gradients = kind == FeatureKind::Normal || t.bits16;
+                if (switches % 3 == 1) t.base_format = FeatureSampleFormat::Rgba16;
+                all.push_back(t);
+            }
+        }
+    }
+    return all;
+}
+
+TEST_F(Shaders, ofFeatureCurvesCompileInEveryDialect) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    for (const Dialect dialect : kDialects) {
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const FeatureCurvesTraits& traits : all_feature_curves())
+            EXPECT_EQ(run(traits.mips ? feature_curves_mip_fragment_source(dialect, traits)
+                                      : feature_curves_fragment_source(dialect, traits,
+                                                                       traits.open ? Filter::Area : Filter::Point),
+                          "curves.frag", tool),
+                      "");
+    }
+}
+
+TEST_F(Shaders, ofFeatureCurvesCompileByHand) {
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
+    const std::string main_text =
+        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
+        "void main() { color = fetexFeatureSample(uv) + fetexFeatureSampleArea(uv, vec2(0.1))\n"
+        "    + fetexFeatureFind(ivec2(1), uv).distance\n"
+        "#if FETEX_FEATURE_MIPS\n    + fetexFeatureSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
+    std::stringstream library;
+    library << std::ifstream(root + "fetex_levels.glsl").rdbuf()
+            << std::ifstream(root + "fetex_feature_curves.glsl").rdbuf();
+    ASSERT_GT(library.str().size(), 5000u);
+    for (const Dialect dialect : kDialects) {
+        std::stringstream prelude;
+        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
+        const std::string tool =
+            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
+        for (const char* macros : {"", "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_MIPS 1\n",
+                                   "#define FETEX_FEATURE_LINEAR 1\n#define FETEX_FEATURE_BITS16 1\n",
+                                   "#define FETEX_FEATURE_KIND 2\n#define FETEX_FEATURE_SEGMENTS 1\n"})
+            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
+    }
+}
+
+TEST_F(Shaders, ofFeatureCurvesCrossToHlslMetalAndEs) {
+    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
+        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    const fs::path binary = folder_ / "shader.spv";
+    for (const FeatureCurvesTraits& traits : all_feature_curves()) {
+        const std::string source = traits.mips
+                                       ? feature_curves_mip_fragment_source(Dialect::Vulkan450, traits)
+                                       : feature_curves_fragment_source(Dialect::Vulkan450, traits, Filter::Area);
+        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
+        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
+            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
+        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
+        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+    }
+}
+
+/// Linear assets solve no equation, have no angles, and fetch two edges of a segment; without open edges nobody looks
+/// for them.
+TEST_F(Shaders, ofFeatureCurvesHaveWhatTheAssetNeeds) {
+    FeatureCurvesTraits lines;
+    lines.linear = true, lines.segments = 1, lines.kind = FeatureKind::Normal, lines.gradients = true;
+    lines.distance_limit = 4;
+    EXPECT_EQ(feature_curves_specialisation(lines),
+              "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_LIMIT 4.000000000e+00\n#define FETEX_FEATURE_LINEAR "
+              "1\n#define FETEX_FEATURE_BITS16 0\n#define FETEX_FEATURE_GRADIENTS 1\n#define FETEX_FEATURE_SEGMENTS "
+              "1\n#define FETEX_FEATURE_CURVES 0\n#define FETEX_FEATURE_OPEN 0\n#define FETEX_FEATURE_SAMPLES "
+              "0\n#define FETEX_FEATURE_ONE_SAMPLE 0\n#define FETEX_FEATURE_NORMAL_FACTOR "
+              "2.007874016e+00\n#define FETEX_FEATURE_HEIGHT_SCALE 1.000000000e+00\n#define FETEX_FEATURE_MIPS 0\n");
+    for (const Dialect dialect : kDialects)
+        for (const char c : feature_curves_mip_fragment_source(dialect, lines))
+            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    const std::string name = (folder_ / "preprocessed").string();
+    ASSERT_EQ(run(feature_curves_fragment_source(Dialect::Glsl330, lines), "one.frag",
+                  "glslangValidator -E @ 2>/dev/null | tr -d ' ' | tee " + name),
+              "");
+    std::stringstream read;
+    read << std::ifstream(name).rdbuf();
+    const std::string text = read.str();
+    ASSERT_GT(text.size(), 1000u);
+    for (const char* absent : {"cos(", "standIn", "fetexFeatureDip", "fetexFeatureBeside"})
+        EXPECT_EQ(count(text, absent), 0u) << absent;
+    EXPECT_EQ(count(text, "=fetexFeatureCrossing("), 2u);
+}
+
 /// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
