@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "compiler/error_budget.h"
 #include "compiler/feature_curves/local_problem.h"
@@ -124,13 +125,12 @@ class Fitter {
     bool fit(TexelIndex t, double margin) {
         const LocalProblem problem(curves_, t.i, t.j, margin);
         if (!problem.open()) return false;
-        sqp::Vector x = problem.start();
-        const sqp::Task task = problem.task();
-        if (!sqp::solve(task, x, budget::kFeatureFitStop, budget::kFeatureFitSteps).solved) return false;
+        const std::optional<sqp::Vector> x = problem.solve();
+        if (!x) return false;
         const std::array<fetex::FeatureCrossing, 4> before = crossings(t);
         const std::array<SegmentSet, 4> valid = valid_beside(t);
         const SegmentSet curved = texel(t).curved;
-        problem.apply(x, curves_);
+        problem.apply(*x, curves_);
         settle_straight(t);
         if (!has_fault(curves_, t.i, t.j) && still_valid(t, valid)) {
             texel(t).kinds |= kFitted;

@@ -113,7 +113,7 @@ LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::ui
     for (std::size_t p = 0; p < points_.size(); ++p)
         add_outer(curves, p);
     add_tangencies();
-    find_curvature();
+    expand_tangencies();
     // A segment without a point or a tangent that can change is what it is.
     for (std::size_t s = 0; s < inner_; ++s) {
         const bool moves = std::ranges::any_of(handles_, [&](const Handle& h) {
@@ -210,8 +210,15 @@ template <class T> std::array<T, 2> LocalProblem::bend(const Segment& s, const T
     return {2.0 * (a[0] - 2.0 * b[0] + c[0]), 2.0 * (a[1] - 2.0 * b[1] + c[1])};
 }
 
-sqp::Vector LocalProblem::start() const {
-    return Eigen::Map<const Eigen::VectorXd>(start_.data(), static_cast<Eigen::Index>(start_.size()));
+std::optional<sqp::Vector> LocalProblem::solve() const {
+    const sqp::Task task = this->task();
+    const auto from = [&](sqp::Vector x) -> std::optional<sqp::Vector> {
+        if (!sqp::solve(task, x, budget::kFeatureFitStop, budget::kFeatureFitSteps).solved) return {};
+        return x;
+    };
+    const auto n = static_cast<Eigen::Index>(start_.size());
+    const auto found = from(Eigen::Map<const Eigen::VectorXd>(start_.data(), n));
+    return found ? found : from((task.low + task.high) / 2);
 }
 
 sqp::Task LocalProblem::task() const {
@@ -240,38 +247,49 @@ double LocalProblem::energy(const sqp::Vector& x) const {
     return sum;
 }
 
-void LocalProblem::constraints(const sqp::Vector& x, sqp::Values& values, sqp::Jacobian& jacobian) const {
-    const auto m = static_cast<Eigen::Index>(tangencies_.size());
-    values.resize(m), jacobian.resize(m, x.size());
-    const auto at = jets(x);
-    for (Eigen::Index k = 0; k < m; ++k) {
-        const Jet v = tangency(tangencies_[static_cast<std::size_t>(k)], at.data());
-        values[k] = v.a, jacobian.row(k) = v.v.head(x.size()).transpose();
+/// A tangency is a product of two functions that are linear: its value, derivatives and second derivatives where all
+/// variables are 0 are all there is to know.
+void LocalProblem::expand_tangencies() {
+    const auto n = static_cast<Eigen::Index>(start_.size());
+    const auto x = jets(sqp::Vector::Zero(n));
+    for (const Tangency& t : tangencies_) {
+        const Jet value = tangency(t, x.data());
+        Expansion e{value.a, {}, {}};
+        for (Eigen::Index k = 0; k < n; ++k)
+            if (value.v[k] != 0) e.slopes.push_back({k, value.v[k]});
+        if (t.like) {
+            const auto p = points_[t.point].at.at(x.data());
+            const auto a = middle(t.segment).at(x.data()) - p, b = middle(*t.like).at(x.data()) - p;
+            for (Eigen::Index r = 0; r < n; ++r) {
+                for (Eigen::Index c = 0; c < n; ++c) {
+                    const double bend =
+                        a[0].v[r] * b[1].v[c] + b[1].v[r] * a[0].v[c] - a[1].v[r] * b[0].v[c] - b[0].v[r] * a[1].v[c];
+                    if (bend != 0) e.bends.push_back({r, c, bend});
+                }
+            }
+        }
+        expansions_.push_back(std::move(e));
     }
 }
 
-void LocalProblem::find_curvature() {
-    const auto n = static_cast<Eigen::Index>(start_.size());
-    const auto x = jets(sqp::Vector::Zero(n));
-    for (std::size_t k = 0; k < tangencies_.size(); ++k) {
-        const Tangency& t = tangencies_[k];
-        if (!t.like) continue; // linear
-        // Both factors are linear.
-        const auto p = points_[t.point].at.at(x.data());
-        const auto a = middle(t.segment).at(x.data()) - p, b = middle(*t.like).at(x.data()) - p;
-        for (Eigen::Index r = 0; r < n; ++r) {
-            for (Eigen::Index c = 0; c < n; ++c) {
-                const double value =
-                    a[0].v[r] * b[1].v[c] + b[1].v[r] * a[0].v[c] - a[1].v[r] * b[0].v[c] - b[0].v[r] * a[1].v[c];
-                if (value != 0) curvature_.push_back({static_cast<Eigen::Index>(k), r, c, value});
-            }
-        }
+void LocalProblem::constraints(const sqp::Vector& x, sqp::Values& values, sqp::Jacobian& jacobian) const {
+    const auto m = static_cast<Eigen::Index>(expansions_.size());
+    values.resize(m), jacobian.setZero(m, x.size());
+    for (Eigen::Index k = 0; k < m; ++k) {
+        const Expansion& e = expansions_[static_cast<std::size_t>(k)];
+        double value = e.value;
+        for (const auto& s : e.slopes)
+            jacobian(k, s.variable) = s.value, value += s.value * x[s.variable];
+        for (const auto& b : e.bends)
+            jacobian(k, b.row) += b.value * x[b.column], value += b.value * x[b.row] * x[b.column] / 2;
+        values[k] = value;
     }
 }
 
 void LocalProblem::add_curvature(const sqp::Values& weights, sqp::Matrix& to) const {
-    for (const Curvature& c : curvature_)
-        to(c.row, c.column) += weights[c.tangency] * c.value;
+    for (std::size_t k = 0; k < expansions_.size(); ++k)
+        for (const auto& b : expansions_[k].bends)
+            to(b.row, b.column) += weights[static_cast<Eigen::Index>(k)] * b.value;
 }
 
 void LocalProblem::apply(const sqp::Vector& x, SnappedCurves& curves) const {

@@ -53,9 +53,10 @@ class LocalProblem : public sqp::Problem {
 
     /// Something of it can move, and no neighbour's tangent keeps its middle point out of its texel.
     [[nodiscard]] bool open() const { return open_; }
+    /// As solve() has it.
     [[nodiscard]] sqp::Task task() const;
-    /// From the signature as it is, moved within the bounds.
-    [[nodiscard]] sqp::Vector start() const;
+    /// From the signature as it is, moved within the bounds; if that leads nowhere, from the middle of the bounds.
+    [[nodiscard]] std::optional<sqp::Vector> solve() const;
     /// Eq. 3 of all segments.
     [[nodiscard]] double energy(const sqp::Vector& x) const;
     void constraints(const sqp::Vector& x, sqp::Values& values, sqp::Jacobian& jacobian) const override;
@@ -82,17 +83,26 @@ class LocalProblem : public sqp::Problem {
         std::optional<std::size_t> like;
     };
 
-    /// An entry of a tangency's second derivatives.
-    struct Curvature {
-        Eigen::Index tangency = 0, row = 0, column = 0;
+    /// A tangency as value + slopes·x + x·bends·x/2.
+    struct Expansion {
+        struct Slope {
+            Eigen::Index variable = 0;
+            double value = 0;
+        };
+        struct Bend {
+            Eigen::Index row = 0, column = 0;
+            double value = 0;
+        };
         double value = 0;
+        std::vector<Slope> slopes;
+        std::vector<Bend> bends;
     };
 
     std::size_t add_point(const SnappedCurves& curves, fetex::FeatureEdge e);
     void add_inner(const SnappedCurves& curves, std::uint32_t k);
     void add_outer(const SnappedCurves& curves, std::size_t point);
     void add_tangencies();
-    void find_curvature();
+    void expand_tangencies();
     [[nodiscard]] double angle_at(std::size_t point, const sqp::Vector& x) const;
     void straighten_flat(std::size_t segment, const sqp::Vector& x, SnappedCurves& curves) const;
     int add_variable(double low, double high, double start);
@@ -108,7 +118,7 @@ class LocalProblem : public sqp::Problem {
     std::size_t inner_ = 0;         ///< how many are the texel's
     std::vector<Handle> handles_;
     std::vector<Tangency> tangencies_;
-    std::vector<Curvature> curvature_;
+    std::vector<Expansion> expansions_;
     std::vector<double> low_, high_, start_;
 };
 

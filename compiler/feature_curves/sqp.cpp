@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/feature_curves/small_cholesky.h"
+
 namespace fetexc::sqp {
 namespace {
 
@@ -27,16 +29,17 @@ constexpr double kSufficient = 1e-4; ///< Armijo's part of the decrease
 constexpr int kHalvings = 20;
 constexpr double kMeritRounding = 1e-14; ///< relative
 
-using Factor = Eigen::LLT<Matrix>;
+using Factor = SmallCholesky<kMostVariables>;
 
 double largest(const Matrix& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0; }
 
 /// One step's quadratic problem: least d·b·d/2 + g·d with jacobian·d = −values and bounds of d, b positive definite.
 class Step {
   public:
-    Step(const Matrix& b, const Vector& g, const Jacobian& jacobian, const Values& values, const Vector& low,
-         const Vector& high)
-        : b_(b), g_(g), jacobian_(jacobian), values_(values), low_(low), high_(high) {}
+    /// whole: the factor of b.
+    Step(const Matrix& b, const Factor& whole, const Vector& g, const Jacobian& jacobian, const Values& values,
+         const Vector& low, const Vector& high)
+        : b_(b), whole_(whole), g_(g), jacobian_(jacobian), values_(values), low_(low), high_(high) {}
 
     Vector d;
     Values multipliers;
@@ -55,54 +58,91 @@ class Step {
 
     /// With the other variables at their bounds.
     bool solve_free(const std::array<Place, kMostVariables>& places) {
-        const auto n = static_cast<int>(g_.size());
-        d.setZero(n);
-        std::array<int, kMostVariables> free{};
-        int count = 0;
+        const auto n = static_cast<int>(g_.size()), m = static_cast<int>(values_.size());
+        d.setZero(n), multipliers.setZero(m);
+        count_ = 0;
         for (int k = 0; k < n; ++k) {
-            if (places[static_cast<std::size_t>(k)] == Place::Free)
-                free[static_cast<std::size_t>(count++)] = k;
+            const Place p = places[static_cast<std::size_t>(k)];
+            if (p == Place::Free)
+                free_[static_cast<std::size_t>(count_++)] = k;
             else
-                d[k] = bound(k, places[static_cast<std::size_t>(k)]);
+                d[k] = bound(k, p);
         }
-        const Vector slope = g_ + b_ * d;
-        const Values left = values_ + jacobian_ * d;
-        Matrix b(count, count);
-        Jacobian a(values_.size(), count);
-        Vector g(count);
-        for (int r = 0; r < count; ++r) {
-            const int k = free[static_cast<std::size_t>(r)];
-            g[r] = slope[k], a.col(r) = jacobian_.col(k);
-            for (int c = 0; c < count; ++c)
-                b(r, c) = b_(k, free[static_cast<std::size_t>(c)]);
+        const bool bounded = count_ < n;
+        const auto b = [&](int r, int c) { return b_(free(r), free(c)); };
+        factor_ = bounded ? &part_ : &whole_;
+        if (bounded && !part_.factor(count_, b)) return false;
+        std::array<double, kMostVariables> z{}; // L⁻¹·g
+        for (int r = 0; r < count_; ++r) {
+            double sum = g_[free(r)];
+            for (int c = 0; bounded && c < n; ++c)
+                sum += b_(free(r), c) * d[c]; // free ones are 0
+            z[static_cast<std::size_t>(r)] = sum;
         }
-        Vector part;
-        if (!solve_equalities(b, g, a, left, part)) return false;
-        for (int r = 0; r < count; ++r)
-            d[free[static_cast<std::size_t>(r)]] = part[r];
+        factor_->forward(z.data());
+        if (m > 0 && !solve_multipliers(z)) return false;
+        // −L⁻ᵀ·(z + Y·multipliers)
+        for (int k = 0; k < m; ++k)
+            for (int r = 0; r < count_; ++r)
+                z[static_cast<std::size_t>(r)] += y(k)[r] * multipliers[k];
+        factor_->backward(z.data());
+        bool finite = true;
+        for (int r = 0; r < count_; ++r)
+            d[free(r)] = -z[static_cast<std::size_t>(r)],
+            finite = finite && std::isfinite(z[static_cast<std::size_t>(r)]);
+        return finite;
+    }
+
+    /// With Y = L⁻¹·jacobianᵀ: YᵀY·multipliers = what is left of the constraints − Yᵀz.
+    bool solve_multipliers(const std::array<double, kMostVariables>& z) {
+        const auto m = static_cast<int>(values_.size());
+        const auto dot = [&](const double* a, const double* b) {
+            double sum = 0;
+            for (int r = 0; r < count_; ++r)
+                sum += a[r] * b[r];
+            return sum;
+        };
+        std::array<double, kMostConstraints> left{};
+        for (int k = 0; k < m; ++k) {
+            for (int r = 0; r < count_; ++r)
+                y(k)[r] = jacobian_(k, free(r));
+            factor_->forward(y(k));
+            double sum = values_[k];
+            for (int c = 0; c < d.size(); ++c)
+                sum += jacobian_(k, c) * d[c];
+            left[static_cast<std::size_t>(k)] = sum - dot(y(k), z.data());
+        }
+        Square s;
+        double most = 0;
+        for (int r = 0; r < m; ++r)
+            for (int c = 0; c <= r; ++c)
+                s[static_cast<std::size_t>(r * kMostConstraints +
+                                           c)] = dot(y(r), y(c)),
+                                           most = std::max(
+                                               most, std::abs(s[static_cast<std::size_t>(r * kMostConstraints + c)]));
+        const auto lower = [&](int r, int c) {
+            return s[static_cast<std::size_t>(std::max(r, c) * kMostConstraints + std::min(r, c))];
+        };
+        const double slack = kConstraintSlack * (1 + most);
+        if (!outer_.factor(m, [&](int r, int c) { return lower(r, c) + (r == c ? slack : 0); })) return false;
+        for (int round = 0; round < kRefinements; ++round) {
+            std::array<double, kMostConstraints> more{};
+            for (int r = 0; r < m; ++r) {
+                double sum = left[static_cast<std::size_t>(r)];
+                for (int c = 0; c < m; ++c)
+                    sum -= lower(r, c) * multipliers[c];
+                more[static_cast<std::size_t>(r)] = sum;
+            }
+            outer_.solve(more.data());
+            for (int r = 0; r < m; ++r)
+                multipliers[r] += more[static_cast<std::size_t>(r)];
+        }
         return true;
     }
 
-    bool solve_equalities(const Matrix& b, const Vector& g, const Jacobian& a, const Values& left, Vector& part) {
-        const Factor factor(b);
-        if (factor.info() != Eigen::Success) return false;
-        part = -factor.solve(g);
-        multipliers.setZero(left.size());
-        if (left.size() == 0) return true;
-        using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostConstraints, kMostConstraints>;
-        using Tall = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostVariables, kMostConstraints>;
-        const Tall back = factor.solve(Tall(a.transpose()));
-        Square s = a.lazyProduct(back);
-        s.diagonal().array() += kConstraintSlack * (1 + s.cwiseAbs().maxCoeff());
-        const Eigen::LLT<Square> outer(s);
-        if (outer.info() != Eigen::Success) return false;
-        for (int k = 0; k < kRefinements; ++k) {
-            const Values more = outer.solve(left + a * part);
-            multipliers += more;
-            part -= back * more;
-        }
-        return part.allFinite();
-    }
+    using Square = std::array<double, std::size_t{kMostConstraints} * kMostConstraints>;
+    [[nodiscard]] int free(int r) const { return free_[static_cast<std::size_t>(r)]; }
+    double* y(int constraint) { return y_.data() + static_cast<std::ptrdiff_t>(constraint) * kMostVariables; }
 
     /// Bounds passed become active, those that hold back nothing are let go. False: nothing to do.
     bool change(std::array<Place, kMostVariables>& places, bool one) const {
@@ -133,16 +173,24 @@ class Step {
 
     static constexpr double kRounding = 1e-12;
     const Matrix& b_;
+    const Factor& whole_;
     const Vector& g_;
     const Jacobian& jacobian_;
     const Values& values_;
     const Vector &low_, &high_;
+    int count_ = 0;
+    std::array<int, kMostVariables> free_;
+    Factor part_; ///< of the free variables' part
+    const Factor* factor_ = nullptr;
+    SmallCholesky<kMostConstraints> outer_;
+    std::array<double, std::size_t{kMostConstraints} * kMostVariables> y_;
 };
 
 class Solver {
   public:
     Solver(const Task& task, Vector& x) : task_(task), x_(x) {
         multipliers_.setZero(task.constraints), weights_.setZero(task.constraints);
+        shift_ = kFirstShift * std::max(1.0, largest(task.hessian));
         evaluate();
     }
 
@@ -150,7 +198,7 @@ class Solver {
         for (int step = 1; step <= most_steps; ++step) {
             const Vector slope = task_.hessian * x_ + task_.gradient, low = task_.low - x_, high = task_.high - x_;
             const Matrix b = convex();
-            Step quadratic(b, slope, jacobian_, values_, low, high);
+            Step quadratic(b, factor_, slope, jacobian_, values_, low, high);
             if (!quadratic.solve(places_)) {
                 places_ = {};
                 return {false, step};
@@ -167,26 +215,32 @@ class Solver {
     void evaluate() { task_.problem.constraints(x_, values_, jacobian_); }
     [[nodiscard]] double off() const { return values_.size() > 0 ? values_.cwiseAbs().maxCoeff() : 0; }
     [[nodiscard]] double objective(const Vector& x) const {
-        return x.dot(task_.hessian * x) / 2 + task_.gradient.dot(x);
+        double sum = 0;
+        for (Eigen::Index c = 0; c < x.size(); ++c) {
+            double column = 0;
+            for (Eigen::Index r = 0; r < x.size(); ++r)
+                column += task_.hessian(r, c) * x[r];
+            sum += x[c] * (column / 2 + task_.gradient[c]);
+        }
+        return sum;
     }
 
     /// The Lagrangian's second derivatives if they are convex, at least where constraints and bounds leave room: what
     /// is added across these doesn't change the step. Else with as much of the constraints' part as leaves them convex.
-    [[nodiscard]] Matrix convex() const {
+    [[nodiscard]] Matrix convex() {
         const auto n = x_.size();
         Matrix curvature = Matrix::Zero(n, n);
         task_.problem.add_curvature(multipliers_, curvature);
-        const double shift = kFirstShift * std::max(1.0, largest(task_.hessian));
         Matrix b;
         const auto is_convex = [&](double part, double across) {
             b = task_.hessian + part * curvature;
-            b.diagonal().array() += shift;
+            b.diagonal().array() += shift_;
             if (across > 0) {
                 b += across * jacobian_.transpose().lazyProduct(jacobian_);
                 for (Eigen::Index k = 0; k < n; ++k)
                     if (places_[static_cast<std::size_t>(k)] != Place::Free) b(k, k) += across;
             }
-            return Factor(b).info() == Eigen::Success;
+            return factor_.factor(static_cast<int>(n), b);
         };
         if (is_convex(1, 0)) return b;
         const double across = kAcross * std::max(1.0, largest(curvature));
@@ -242,6 +296,8 @@ class Solver {
     Jacobian jacobian_;
     std::array<Place, kMostVariables> places_{};
     Values weights_; ///< of constraints in the merit
+    double shift_ = 0;
+    Factor factor_; ///< of what convex() has returned
 };
 
 } // namespace
