@@ -44,6 +44,8 @@ class Fitter {
         }
         for (const TexelIndex t : invalid)
             straighten(t);
+        for (const TexelIndex t : invalid)
+            mend(t);
     }
 
   private:
@@ -181,6 +183,19 @@ class Fitter {
             s.kinds |= kStraightened;
             ++curves_.stats.straightened;
         });
+    }
+
+    /// Curves that go on from the texel's straight segments take their directions, where they stay valid so.
+    void mend(TexelIndex t) {
+        for (const FeatureEdge e : fetex::kFeatureEdges) {
+            if (!curves_.is_used(t.i, t.j, e)) continue;
+            const StraightEnds ends = straight_ends(curves_, t.i, t.j, e);
+            if (!ends.angle) continue;
+            const double before = curves_.angle(t.i, t.j, e);
+            const std::array<SegmentSet, 4> beside = valid_beside(t);
+            curves_.angle(t.i, t.j, e) = *ends.angle;
+            if (has_fault(curves_, t.i, t.j) || !still_valid(t, beside)) curves_.angle(t.i, t.j, e) = before;
+        }
     }
 
     SnappedCurves& curves_;

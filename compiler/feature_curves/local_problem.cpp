@@ -103,6 +103,13 @@ StraightEnds straight_ends(const SnappedCurves& curves, std::uint32_t i, std::ui
     return out;
 }
 
+bool goes_on(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, FeatureEdge e) {
+    const auto beside = across(curves, i, j, e);
+    if (!beside) return false;
+    const EdgeSet edges = edges_of(curves.texel(beside->i, beside->j).segments);
+    return (edges >> fetex::feature_edge_index(beside->edge) & 1u) != 0;
+}
+
 LocalProblem::LocalProblem(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, double margin)
     : i_(i), j_(j), margin_(margin) {
     open_ = true;
@@ -135,7 +142,7 @@ std::size_t LocalProblem::add_point(const SnappedCurves& curves, FeatureEdge e) 
     point.edge = e;
     const double position = curves.position(i_, j_, e);
     const StraightEnds straight = straight_ends(curves, i_, j_, e);
-    if (straight.any) {
+    if (straight.any || !goes_on(curves, i_, j_, e)) {
         point.at.base = fetex::feature_point(e, position);
         point.angle = straight.angle;
     } else {

@@ -5,7 +5,8 @@
 /// Variables: positions of the texel's points along their edges; the middle control points of its segments; how far the
 /// middle control points of the neighbours' segments are from their other ends, along the tangents there, which stay.
 /// Constraints: one tangent at each of the points. Bounds: all middle points inside their texels, by kFeatureMargin. A
-/// straight segment that ends at a point holds it, and is its tangent.
+/// straight segment that ends at a point holds it, and is its tangent. Points where nothing goes on stay where they
+/// are.
 #pragma once
 
 #include <array>
@@ -45,6 +46,9 @@ struct MovablePoint {
         return p;
     }
 };
+
+/// A segment of the texel across the edge ends there too.
+bool goes_on(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e);
 
 class LocalProblem : public sqp::Problem {
   public:

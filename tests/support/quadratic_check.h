@@ -89,7 +89,8 @@ inline void check_signatures(const SnappedCurves& c) {
     }
 }
 
-/// A straight segment ends in the tangent of what goes on there in a curve, but in and next to texels that are reported.
+/// A straight segment ends in the tangent of what goes on there in a curve, but in and next to texels that are
+/// reported.
 inline void check_straight_ends(const SnappedCurves& c) {
     constexpr double kTangents = 1e-8;
     std::map<std::pair<std::uint32_t, std::uint32_t>, unsigned> kinds;
