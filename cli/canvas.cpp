@@ -112,6 +112,13 @@ Result<fetex::Image> Canvas::draw(const fetex::PinchmapTexture& texture, const f
     return to_result(gl_->render_pinchmap(view, size));
 }
 
+Result<fetex::Image> Canvas::draw(const fetex::FeatureCurvesTexture& texture, const fetex::View& view,
+                                  const fetex::RenderSize& size) {
+    if (!gl_) return to_result(fetex::render_cpu(texture, view, size));
+    if (const auto error = gl_->upload_feature_curves(texture)) return to_error(*error);
+    return to_result(gl_->render_feature_curves(view, size));
+}
+
 Result<bool> Canvas::filters_well() {
     const auto error = gl_->linear_filter_error();
     if (!error) return to_error(error.error());
@@ -137,6 +144,10 @@ Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::u
 }
 
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::PinchmapTexture& texture, std::uint64_t bytes) {
+    return equal_bitmap(texture, bytes);
+}
+
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::FeatureCurvesTexture& texture, std::uint64_t bytes) {
     return equal_bitmap(texture, bytes);
 }
 

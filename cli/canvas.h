@@ -39,6 +39,8 @@ class Canvas {
     /// By the hardware's filter where a probe finds that good enough.
     Result<fetex::Image> draw(const fetex::PinchmapTexture& texture, const fetex::View& view,
                               const fetex::RenderSize& size);
+    Result<fetex::Image> draw(const fetex::FeatureCurvesTexture& texture, const fetex::View& view,
+                              const fetex::RenderSize& size);
     Result<fetex::Image> draw(const Bitmap& bitmap, const fetex::View& view, const fetex::RenderSize& size);
 
   private:
@@ -53,5 +55,6 @@ Result<Bitmap> bitmap_of_equal_bytes(const fetex::FbtTexture& texture, std::uint
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::BilevelTexture& texture, std::uint64_t bytes);
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::SilmapTexture& texture, std::uint64_t bytes);
 Result<Bitmap> bitmap_of_equal_bytes(const fetex::PinchmapTexture& texture, std::uint64_t bytes);
+Result<Bitmap> bitmap_of_equal_bytes(const fetex::FeatureCurvesTexture& texture, std::uint64_t bytes);
 
 } // namespace fetexc::cli

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/compile_bilevel.h"
+#include "cli/compile_curves.h"
 #include "cli/compile_pinchmap.h"
 #include "cli/compile_silmap.h"
 #include "cli/fetex_input.h"
@@ -37,6 +38,9 @@ std::string name_of(const fetex::SilmapTexture& t) {
     return fmt::format("silhouette-map texture ({}-bit cells)", cell_bits(t));
 }
 
+std::string name_of(const fetex::FeatureCurvesTexture& t) {
+    return fmt::format("texture with feature curves ({}s)", kind_name(t.kind));
+}
 std::string name_of(const fetex::PinchmapTexture& t) { return fmt::format("pinchmap ({}-bit map)", map_bits(t)); }
 
 Result<ComparedPicture> asset_picture(const ComparedFile& file, const std::string& representation) {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/compile_bilevel.h"
+#include "cli/compile_curves.h"
 #include "cli/compile_image.h"
 #include "cli/compile_pinchmap.h"
 #include "cli/compile_silmap.h"
@@ -41,6 +42,7 @@ struct CompileCommandOptions {
     BilevelCommandOptions bilevel;
     SilmapCommandOptions silmap;
     PinchmapCommandOptions pinchmap;
+    CurvesCommandOptions curves;
     bool silhouette_given = false;
     /// Options, and the representations of which one must be made for them to mean anything.
     struct OptionsFor {
@@ -93,6 +95,7 @@ struct Compiled {
     std::optional<CompiledBilevel> bilevel;
     std::optional<SilmapBuild> silmap;
     std::optional<PinchmapBuild> pinchmap;
+    std::optional<CompiledCurves> curves;
     CompileReport report; ///< the FBT's if there is one
 };
 
@@ -116,6 +119,14 @@ PinchmapRequest pinchmap_request(const CompileCommandOptions& options, const Ext
     return request;
 }
 
+CurvesRequest curves_request(const CompileCommandOptions& options) {
+    CurvesRequest request;
+    request.how = options.curves, request.size = options.size;
+    request.max_bytes = options.max_bytes, request.samples = options.samples, request.threads = options.threads;
+    request.mips = options.mips;
+    return request;
+}
+
 /// What the file says about its own making. Nothing that differs between two runs or two folders.
 std::string options_text(const Compiled& compiled, const CompileCommandOptions& options) {
     std::string text = fmt::format("repr={}", fmt::join(options.representations, ","));
@@ -135,6 +146,8 @@ std::string options_text(const Compiled& compiled, const CompileCommandOptions& 
     if (compiled.bilevel) add("bilevel-", compiled.bilevel->build.texture, compiled.bilevel->options);
     if (compiled.silmap) add("silmap-", compiled.silmap->texture, options_text(silmap_request(options, {})));
     if (compiled.pinchmap) add("pinchmap-", compiled.pinchmap->texture, options_text(pinchmap_request(options, {})));
+    if (compiled.curves)
+        add("curves-", compiled.curves->build.texture, options_text(curves_request(options), compiled.curves->build));
     return text;
 }
 
@@ -145,6 +158,8 @@ fetex::Metadata metadata_for(const Compiled& compiled, const CompileCommandOptio
     if (!compiled.features_hash.empty()) metadata.emplace("features.xxh128", compiled.features_hash);
     if (compiled.bilevel && !compiled.bilevel->image_hash.empty())
         metadata.emplace("above-image.xxh128", compiled.bilevel->image_hash);
+    if (compiled.curves && !compiled.curves->base_hash.empty())
+        metadata.emplace("base.xxh128", compiled.curves->base_hash);
     return metadata;
 }
 
@@ -228,19 +243,19 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
     return compiled;
 }
 
-Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOptions& options,
-                                          std::vector<Diagnostic>& diagnostics) {
+Result<Compiled> compile_drawing(const Job& job, const std::vector<std::uint8_t>& bytes,
+                                 const CompileCommandOptions& options, std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
     const bool chosen = size_chosen(options);
     const std::uint32_t texels =
         chosen ? kDefaultTexels : std::max({options.size.longer, options.size.width, options.size.height});
     SceneOptions scene_options = options.scene;
     scene_options.cull = skip_rules_without(options.no_skip).layers;
-    auto loaded = load_scene(job.input, scene_options, texels, options.threads, diagnostics);
+    auto loaded = scene_of_bytes(bytes, scene_options, texels, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const Scene& scene = loaded.value().scene;
     Compiled compiled;
-    compiled.source_hash = loaded.value().source_hash, compiled.report.scene = scene.stats;
+    compiled.report.scene = scene.stats;
     if (makes(options, "fbt")) {
         const CompileOptions how = compile_options(options, scene.extent);
         auto build = chosen ? compile_fbt_at_chosen_size(scene, how, options.max_bytes, progress.sink())
@@ -263,10 +278,49 @@ Result<Compiled> load_and_compile_drawing(const Job& job, const CompileCommandOp
     return compiled;
 }
 
+/// A network as it is, a drawing for what of it is a curve.
+Status add_curves(const std::vector<std::uint8_t>& bytes, const CompileCommandOptions& options,
+                  const ProgressSink& progress, std::vector<Diagnostic>& diagnostics, Compiled& compiled) {
+    const auto network = network_of_bytes(bytes, options.curves.curves, options.scene, options.threads, diagnostics);
+    if (!network) return network.error();
+    auto built = compile_curves(network.value(), curves_request(options), progress, diagnostics);
+    if (!built) return built.error();
+    compiled.curves = std::move(built).value();
+    return {};
+}
+
+Error usage(std::string message) { return {ErrorClass::Usage, diag::kBadUsage, std::move(message), {}}; }
+
+bool makes_only_curves(const CompileCommandOptions& options) {
+    return std::ranges::all_of(options.representations, [](const std::string& name) { return name == "curves"; });
+}
+
+/// A file on disk, read once for all representations.
+Result<Compiled> load_and_compile_input(const Job& job, const CompileCommandOptions& options,
+                                        std::vector<Diagnostic>& diagnostics) {
+    const auto bytes = read_input(job.input, SvgLimits{}.bytes);
+    if (!bytes) return bytes.error();
+    const bool only_curves = makes_only_curves(options);
+    if (!only_curves && is_network(bytes.value())) return usage("a network is for --repr curves alone");
+    Compiled compiled;
+    if (!only_curves) {
+        auto drawing = compile_drawing(job, bytes.value(), options, diagnostics);
+        if (!drawing) return drawing;
+        compiled = std::move(drawing).value();
+    }
+    compiled.source_hash = hash_of(bytes.value());
+    if (makes(options, "curves")) {
+        ProgressLine progress(job.input, options.quiet);
+        if (const Status s = add_curves(bytes.value(), options, progress.sink(), diagnostics, compiled); !s)
+            return s.error();
+    }
+    return compiled;
+}
+
 /// Front end and compiler; what they have to say is appended to diagnostics, also on error.
 Result<Compiled> load_and_compile(const Job& job, const CompileCommandOptions& options,
                                   std::vector<Diagnostic>& diagnostics) {
-    auto compiled = options.image.image.empty() ? load_and_compile_drawing(job, options, diagnostics)
+    auto compiled = options.image.image.empty() ? load_and_compile_input(job, options, diagnostics)
                                                 : load_and_compile_image(job, options, diagnostics);
     if (!compiled) return compiled;
     const std::vector<Diagnostic>& found = compiled.value().report.diagnostics;
@@ -299,6 +353,10 @@ CompileOutcome outcome_of(const Job& job, const Compiled& compiled) {
     if (compiled.bilevel) outcome.bilevel = outcome_of(compiled.bilevel->build);
     if (compiled.silmap) outcome.silmap = silmap_outcome(*compiled.silmap);
     if (compiled.pinchmap) outcome.pinchmap = pinchmap_outcome(*compiled.pinchmap);
+    if (compiled.curves) {
+        outcome.curves = curves_outcome(compiled.curves->build);
+        outcome.curves->profile_file = compiled.curves->profile_file;
+    }
     outcome.report = compiled.report;
     return outcome;
 }
@@ -317,6 +375,7 @@ Result<CompileOutcome> compile_job(const Job& job, const CompileCommandOptions& 
     if (compiled.value().bilevel) file.bilevel = std::move(compiled.value().bilevel->build.texture);
     if (compiled.value().silmap) file.silmap = std::move(compiled.value().silmap->texture);
     if (compiled.value().pinchmap) file.pinchmap = std::move(compiled.value().pinchmap->texture);
+    if (compiled.value().curves) file.feature_curves = std::move(compiled.value().curves->build.texture);
     const std::vector<std::uint8_t> bytes = fetex::write_file(file);
     if (const Status status = write_output(job.output, bytes); !status) return status.error();
 
@@ -331,9 +390,11 @@ Status write_depfile(const CompileCommandOptions& options, const std::vector<Com
     for (const CompileOutcome& outcome : outcomes) {
         DepfileRule rule{outcome.output, {}};
         if (outcome.input != "-") rule.inputs.push_back(outcome.input);
-        for (const std::string& beside : {options.image.features, options.bilevel.above_image}) {
+        for (const std::string& beside : {options.image.features, options.bilevel.above_image, options.curves.base}) {
             if (!beside.empty()) rule.inputs.push_back(beside);
         }
+        if (outcome.curves && !outcome.curves->profile_file.empty())
+            rule.inputs.push_back(outcome.curves->profile_file);
         rule.inputs.insert(rule.inputs.end(), options.scene.fonts.begin(), options.scene.fonts.end());
         rules.push_back(std::move(rule));
     }
@@ -353,8 +414,6 @@ void print_report(const CompileCommandOptions& options, const std::vector<Compil
             fmt::print(stream, "{}", report_text(outcome));
     }
 }
-
-Error usage(std::string message) { return {ErrorClass::Usage, diag::kBadUsage, std::move(message), {}}; }
 
 /// Options of a representation that isn't made.
 Status check_representations(const CompileCommandOptions& options) {
@@ -376,15 +435,22 @@ Status check_representations(const CompileCommandOptions& options) {
 Status check_inputs(const CompileCommandOptions& options) {
     if (const Status status = check_representations(options); !status) return status.error();
     const ImageOptions& image = options.image;
-    if (makes(options, "bilevel") && options.size.automatic)
+    if ((makes(options, "bilevel") || makes(options, "curves")) && options.size.automatic)
         return usage("--size auto chooses sizes for --repr fbt, silmap and pinchmap");
     if (options.samples == "rgb8" && makes(options, "fbt"))
-        return usage("--samples rgb8 is for --repr silmap and pinchmap alone");
+        return usage("--samples rgb8 is for --repr silmap, pinchmap and curves alone");
+    if (makes(options, "curves") && !image.image.empty())
+        return usage("--repr curves takes drawings and networks; its image is --base");
+    if (options.curves.kind == "height" && !options.curves.base.empty() && !(options.curves.base_height > 0))
+        return usage("--base of heights needs --base-height");
+    if (options.curves.kind == "color" && options.curves.base_height > 0)
+        return usage("--base-height is for --kind normal and height");
+    if (options.curves.base == "-") return usage("--base takes a file, not stdin");
     if (options.silmap.max_wrong_ppm > 0 && !size_chosen(options))
         return usage("--max-wrong goes with --size auto or --max-bytes");
     if (options.bilevel.above_image == "-") return usage("--above-image takes a file, not stdin");
     if (image.image.empty())
-        return options.inputs.empty() ? usage("inputs is required: SVG files, or --image") : Status();
+        return options.inputs.empty() ? usage("inputs is required: SVG files or networks, or --image") : Status();
     if (!options.inputs.empty()) return usage("--image goes alone: no other inputs");
     if (image.image == "-" || image.features == "-") return usage("--image and --features take files, not stdin");
     if (options.bilevel.silhouette.starts_with("id:")) return usage("--silhouette id:NAME is for drawings");
@@ -399,7 +465,8 @@ Result<Plan> prepare(const CompileCommandOptions& options) {
     auto plan = plan_outputs(image ? std::vector{options.image.image} : options.inputs, options.output);
     if (!plan) return plan;
     for (const Job& job : plan.value().jobs) {
-        if (same_file(options.image.features, job.output) || same_file(options.bilevel.above_image, job.output))
+        if (same_file(options.image.features, job.output) || same_file(options.bilevel.above_image, job.output) ||
+            same_file(options.curves.base, job.output))
             return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
                          job.output};
     }
@@ -441,14 +508,18 @@ int run_compile(const CompileCommandOptions& options) {
 
 Command add_compile_command(CLI::App& parent) {
     const auto options = std::make_shared<CompileCommandOptions>();
-    CLI::App* app = parent.add_subcommand("compile", "Turn SVG files, or an image with features, into .fetex textures");
-    app->add_option("inputs", options->inputs, "SVG or SVGZ files, or - for stdin")->type_name("FILE");
+    CLI::App* app = parent.add_subcommand(
+        "compile", "Turn SVG files, networks of curves, or an image with features, into .fetex textures");
+    app->add_option(
+           "inputs", options->inputs,
+           "SVG or SVGZ files, for --repr curves also networks (cli/schema/network.schema.json), or - for stdin")
+        ->type_name("FILE");
     app->add_option("-o,--output", options->output,
                     "File for one input, folder for several, - for stdout; default: beside each input")
         ->type_name("PATH");
     app->add_option("--repr", options->representations,
                     "Representations: fbt (feature-based texture, default), bilevel (bi-level texture), silmap "
-                    "(silhouette-map texture), pinchmap, or several of them")
+                    "(silhouette-map texture), pinchmap, curves (texture with feature curves), or several of them")
         ->delimiter(',')
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");
@@ -487,7 +558,8 @@ Command add_compile_command(CLI::App& parent) {
                          {silmap.own, {"silmap"}},
                          {{silmap.max_wrong}, {"silmap", "pinchmap"}},
                          {add_pinchmap_options(*app, options->pinchmap), {"pinchmap"}},
-                         {{samples}, {"fbt", "silmap", "pinchmap"}},
+                         {add_curves_options(*app, options->curves), {"curves"}},
+                         {{samples}, {"fbt", "silmap", "pinchmap", "curves"}},
                          {{app->get_option("--features"), app->get_option("--trace")}, {"fbt", "silmap", "pinchmap"}},
                          {{app->get_option("--invalidate")}, {"fbt", "silmap"}}};
     add_scene_options(*app, options->scene);

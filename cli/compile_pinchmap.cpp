@@ -2,9 +2,7 @@
 #include "cli/compile_pinchmap.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,16 +16,8 @@ namespace {
 
 constexpr std::uint32_t kMostScale = 6; ///< 64 × 64 samples a cluster
 
-/// "#rrggbb" or "#rrggbbaa", straight: premultiplied, R low.
-std::optional<std::uint32_t> parse_color(const std::string& text) {
-    if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
-    std::array<double, 4> c{0, 0, 0, 1};
-    for (std::size_t k = 0; 2 * k + 1 < text.size(); ++k) {
-        unsigned value = 0;
-        const char* const first = text.data() + 1 + 2 * k;
-        if (std::from_chars(first, first + 2, value, 16).ptr != first + 2) return std::nullopt;
-        c[k] = value / 255.0;
-    }
+/// Premultiplied, R low.
+std::uint32_t packed_color(const std::array<double, 4>& c) {
     return fetex::fbt_pack_sample({c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]}, fetex::FbtSampleFormat::Rgba8)[0];
 }
 
@@ -46,7 +36,7 @@ Result<PinchmapBuild> compile_input(const Input& input, const PinchmapRequest& r
     if (!built) return built;
     fetex::PinchmapTexture& t = built.value().texture;
     t.line_width = static_cast<std::uint32_t>(std::lround(request.how.line_width * fetex::kPinchmapLineUnit));
-    if (t.line_width != 0) t.line_color = *parse_color(request.how.line_color);
+    if (t.line_width != 0) t.line_color = packed_color(*parse_color(request.how.line_color));
     return built;
 }
 

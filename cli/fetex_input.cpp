@@ -53,6 +53,7 @@ Status choose_representation(fetex::FetexFile& file, const std::string& name, co
     look_at(kRepresentations[1], file.bilevel);
     look_at(kRepresentations[2], file.silmap);
     look_at(kRepresentations[3], file.pinchmap);
+    look_at(kRepresentations[4], file.feature_curves);
     if (found) return {};
     return Error{ErrorClass::Unsupported, diag::kNoSuchRepresentation, "holds no " + what, path};
 }

@@ -31,8 +31,11 @@ struct Representation {
     const char* name;  ///< as --repr takes it
     const char* words; ///< for messages
 };
-inline constexpr std::array<Representation, 4> kRepresentations{
-    {{"fbt", "FBT"}, {"bilevel", "bi-level texture"}, {"silmap", "silhouette-map texture"}, {"pinchmap", "pinchmap"}}};
+inline constexpr std::array<Representation, 5> kRepresentations{{{"fbt", "FBT"},
+                                                                 {"bilevel", "bi-level texture"},
+                                                                 {"silmap", "silhouette-map texture"},
+                                                                 {"pinchmap", "pinchmap"},
+                                                                 {"curves", "texture with feature curves"}}};
 
 /// Their names.
 const std::vector<std::string>& representation_names();
@@ -46,7 +49,8 @@ template <class Visit> auto with_texture(const fetex::FetexFile& file, const Vis
     if (file.fbt) return visit(*file.fbt);
     if (file.bilevel) return visit(*file.bilevel);
     if (file.silmap) return visit(*file.silmap);
-    return visit(*file.pinchmap);
+    if (file.pinchmap) return visit(*file.pinchmap);
+    return visit(*file.feature_curves);
 }
 
 /// "F0101 at byte 12: reason"

@@ -23,6 +23,7 @@ void print_text(const std::string& path, const FetexInput& input, bool stats) {
     if (input.file.bilevel) print_info(*input.file.bilevel);
     if (input.file.silmap) print_info(*input.file.silmap);
     if (input.file.pinchmap) print_info(*input.file.pinchmap);
+    if (input.file.feature_curves) print_info(*input.file.feature_curves);
     for (const auto& [key, value] : input.file.metadata)
         fmt::print("{:<13} {}\n", printable(key), printable(value));
 }
@@ -36,6 +37,7 @@ void print_json(const std::string& path, const FetexInput& input, bool stats) {
     if (input.file.bilevel) json["bilevel"] = info_json(*input.file.bilevel);
     if (input.file.silmap) json["silmap"] = info_json(*input.file.silmap);
     if (input.file.pinchmap) json["pinchmap"] = info_json(*input.file.pinchmap);
+    if (input.file.feature_curves) json["curves"] = info_json(*input.file.feature_curves);
     fmt::print("{}\n", json.dump(2));
 }
 

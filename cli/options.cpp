@@ -59,6 +59,18 @@ std::optional<ViewValue> parse_view(const std::string& text) {
     return view;
 }
 
+std::optional<std::array<double, 4>> parse_color(const std::string& text) {
+    if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return std::nullopt;
+    std::array<double, 4> c{0, 0, 0, 1};
+    for (std::size_t k = 0; 2 * k + 1 < text.size(); ++k) {
+        unsigned value = 0;
+        const char* const first = text.data() + 1 + 2 * k;
+        if (std::from_chars(first, first + 2, value, 16).ptr != first + 2) return std::nullopt;
+        c[k] = value / 255.0;
+    }
+    return c;
+}
+
 PixelSize resolve_size(const SizeValue& size, double aspect) {
     if (size.longer == 0) return {size.width, size.height};
     const auto shorter = [&](double ratio) {

@@ -2,6 +2,7 @@
 /// Options that several subcommands share, and how their values are read.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -30,6 +31,8 @@ struct ViewValue {
 inline constexpr std::uint32_t kMaxSide = 16384; ///< texels or pixels
 
 std::optional<SizeValue> parse_size(const std::string& text);
+/// "#rrggbb" or "#rrggbbaa": R, G, B and A, 0 … 1, as they are.
+std::optional<std::array<double, 4>> parse_color(const std::string& text);
 /// w, h > 0; all four finite and of magnitude at most fetex::kMaxView (outside the texture its edge is repeated).
 std::optional<ViewValue> parse_view(const std::string& text);
 

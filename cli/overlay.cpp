@@ -2,6 +2,7 @@
 #include "cli/overlay.h"
 
 #include "cli/pen.h"
+#include "formats/feature_curve_geometry.h"
 
 namespace fetexc::cli {
 namespace {
@@ -182,6 +183,64 @@ class PinchmapOverlay {
     Pen pen_;
 };
 
+class CurvesOverlay {
+  public:
+    CurvesOverlay(const fetex::FeatureCurvesTexture& texture, const fetex::View& view, fetex::Image& image)
+        : texture_(texture), frame_(texture.width, texture.height, view, image), pen_(image) {}
+
+    void draw() {
+        if (frame_.room() >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, 2 * frame_.thickness(), kHalo); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, frame_.thickness(), kBoundary); });
+        if (frame_.room() >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_knots(i, j); });
+    }
+
+  private:
+    template <class Visit> void each_texel(const Visit& visit) const {
+        frame_.each(0, [&](std::uint32_t i, std::uint32_t j) {
+            if (i < texture_.width && j < texture_.height) visit(i, j);
+        });
+    }
+
+    [[nodiscard]] fetex::FeatureSegmentList segments(std::uint32_t i, std::uint32_t j) const {
+        return fetex::feature_unpack(texture_.configurations[std::size_t{j} * texture_.width + i]);
+    }
+
+    void draw_sides(std::uint32_t i, std::uint32_t j) {
+        pen_.dashed(frame_.at(i, j), frame_.at(i + 1.0, j), 1, kSide);
+        pen_.dashed(frame_.at(i, j), frame_.at(i, j + 1.0), 1, kSide);
+    }
+
+    void draw_segments(std::uint32_t i, std::uint32_t j, double thickness, const Ink& ink) {
+        constexpr int kMostChords = 32;
+        const int chords = std::clamp(static_cast<int>(frame_.room() / 4), 1, kMostChords);
+        for (std::uint32_t k = 0; k < segments(i, j).count; ++k) {
+            const fetex::FeatureQuadratic q = fetex::feature_segment_curve(texture_, i, j, k);
+            const auto at = [&](int n) {
+                const fetex::FeaturePoint p = fetex::feature_curve_at(q, static_cast<double>(n) / chords);
+                return frame_.at(i + p.x, j + p.y);
+            };
+            for (int n = 0; n < chords; ++n)
+                pen_.line(at(n), at(n + 1), thickness, ink);
+        }
+    }
+
+    void draw_knots(std::uint32_t i, std::uint32_t j) {
+        const fetex::FeatureSignature signature = fetex::feature_signature(texture_, i, j);
+        for (const fetex::FeatureSegment s : segments(i, j)) {
+            for (const fetex::FeatureEdge e : {s.first, s.second}) {
+                const fetex::FeaturePoint p = fetex::feature_point(e, signature[fetex::feature_edge_index(e)].position);
+                pen_.disc(frame_.at(i + p.x, j + p.y), frame_.thickness() + 1, kRim);
+                pen_.disc(frame_.at(i + p.x, j + p.y), frame_.thickness(), kPoint);
+            }
+        }
+    }
+
+    const fetex::FeatureCurvesTexture& texture_;
+    Frame frame_;
+    Pen pen_;
+};
+
 } // namespace
 
 void draw_overlay(const fetex::PinchmapTexture& texture, const fetex::View& view, fetex::Image& image) {
@@ -190,6 +249,10 @@ void draw_overlay(const fetex::PinchmapTexture& texture, const fetex::View& view
 
 void draw_overlay(const fetex::SilmapTexture& texture, const fetex::View& view, fetex::Image& image) {
     SilmapOverlay(texture, view, image).draw();
+}
+
+void draw_overlay(const fetex::FeatureCurvesTexture& texture, const fetex::View& view, fetex::Image& image) {
+    CurvesOverlay(texture, view, image).draw();
 }
 
 } // namespace fetexc::cli

@@ -8,6 +8,7 @@
 #include "cli/fetex_input.h"
 #include "cli/image_file.h"
 #include "cli/io.h"
+#include "cli/lighting.h"
 #include "cli/messages.h"
 #include "cli/options.h"
 #include "cli/overlay.h"
@@ -27,6 +28,8 @@ struct RenderOptions {
     std::uint32_t supersample = 0; ///< 0: by filter
     std::string filter = "auto";
     bool nearest = false, overlay = false;
+    std::optional<LightDirection> light; ///< none: colours as they are
+    std::string normal_y;                ///< empty: as the representation has it
     bool quiet = false;
 };
 
@@ -34,11 +37,17 @@ std::uint64_t gpu_bytes(const fetex::FbtTexture& texture) { return fetex::fbt_gp
 std::uint64_t gpu_bytes(const fetex::BilevelTexture& texture) { return fetex::bilevel_gpu_bytes(texture); }
 std::uint64_t gpu_bytes(const fetex::SilmapTexture& texture) { return fetex::silmap_gpu_bytes(texture); }
 std::uint64_t gpu_bytes(const fetex::PinchmapTexture& texture) { return fetex::pinchmap_gpu_bytes(texture); }
+std::uint64_t gpu_bytes(const fetex::FeatureCurvesTexture& texture) { return fetex::feature_gpu_bytes(texture); }
 
 const char* texels_name(const fetex::FbtTexture&) { return "of features"; }
 const char* texels_name(const fetex::BilevelTexture&) { return "cut at one half"; }
 const char* texels_name(const fetex::SilmapTexture&) { return "and a silhouette map"; }
 const char* texels_name(const fetex::PinchmapTexture&) { return "of a pinchmap and its signal"; }
+const char* texels_name(const fetex::FeatureCurvesTexture&) { return "with feature curves"; }
+
+/// Feature curves have the texture's frame; pictures of normals, as other textures hold them, have y up.
+template <class Texture> bool normals_y_up(const Texture&) { return true; }
+bool normals_y_up(const fetex::FeatureCurvesTexture&) { return false; }
 
 /// A bi-level texture is cut softly unless told otherwise.
 template <class Texture> fetex::Filter filter_of(const std::string& name, const Texture&) {
@@ -57,22 +66,21 @@ template <class Texture> fetex::RenderSize pixels_for(const RenderOptions& optio
     return {size.width, size.height, supersample, filter_of(options.filter, texture), minification};
 }
 
-/// Draws the ordinary texture that the same bytes buy, to the right of the picture.
+/// What the ordinary texture that the same bytes buy shows.
 template <class Texture>
-Result<fetex::Image> add_bilinear(const RenderOptions& options, Canvas& canvas, const Texture& texture,
-                                  const fetex::View& view, const fetex::RenderSize& size, const fetex::Image& left) {
+Result<fetex::Image> draw_bilinear(const RenderOptions& options, Canvas& canvas, const Texture& texture,
+                                   const fetex::View& view, const fetex::RenderSize& size) {
     const std::uint64_t bytes = gpu_bytes(texture);
     const auto bitmap = bitmap_of_equal_bytes(texture, bytes);
     if (!bitmap) return bitmap.error();
-    const auto right = canvas.draw(bitmap.value(), view, size);
-    if (!right) return right;
-    if (!options.quiet) {
+    auto image = canvas.draw(bitmap.value(), view, size);
+    if (image && !options.quiet) {
         print_message(
             fmt::format("note: left, {} x {} texels {} in {} bytes; right, an ordinary {} x {} texture in {} bytes",
                         texture.width, texture.height, texels_name(texture), bytes, bitmap.value().width,
                         bitmap.value().height, bitmap.value().rgba.size()));
     }
-    return side_by_side(left, right.value(), std::max(2u, size.width / 128));
+    return image;
 }
 
 template <class Texture>
@@ -82,18 +90,14 @@ Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions&, const Texture
 }
 Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions& options, const fetex::SilmapTexture& texture,
                              const fetex::View& view, const fetex::RenderSize& size) {
-    auto image = canvas.draw(texture, view, size,
-                             options.nearest ? fetex::SilmapFilter::Nearest : fetex::SilmapFilter::Filtered);
-    if (image && options.overlay) draw_overlay(texture, view, image.value());
-    return image;
+    return canvas.draw(texture, view, size,
+                       options.nearest ? fetex::SilmapFilter::Nearest : fetex::SilmapFilter::Filtered);
 }
 
-Result<fetex::Image> draw_on(Canvas& canvas, const RenderOptions& options, const fetex::PinchmapTexture& texture,
-                             const fetex::View& view, const fetex::RenderSize& size) {
-    auto image = canvas.draw(texture, view, size);
-    if (image && options.overlay) draw_overlay(texture, view, image.value());
-    return image;
-}
+template <class Texture>
+constexpr bool kHasOverlay = requires(const Texture& t, const fetex::View& v, fetex::Image& i) {
+    draw_overlay(t, v, i);
+};
 
 template <class Texture> Result<fetex::Image> draw(const RenderOptions& options, const Texture& texture) {
     auto canvas = Canvas::open(options.backend);
@@ -101,8 +105,20 @@ template <class Texture> Result<fetex::Image> draw(const RenderOptions& options,
     const fetex::View view{options.view.x, options.view.y, options.view.w, options.view.h};
     const fetex::RenderSize size = pixels_for(options, texture);
     auto image = draw_on(canvas.value(), options, texture, view, size);
-    if (!image || options.beside.empty()) return image;
-    return add_bilinear(options, canvas.value(), texture, view, size, image.value());
+    if (!image) return image;
+    const auto light = [&](fetex::Image& picture) {
+        if (!options.light) return;
+        const bool up = options.normal_y.empty() ? normals_y_up(texture) : options.normal_y == "up";
+        light_normals(picture, *options.light, up);
+    };
+    light(image.value());
+    if constexpr (kHasOverlay<Texture>)
+        if (options.overlay) draw_overlay(texture, view, image.value());
+    if (options.beside.empty()) return image;
+    auto beside = draw_bilinear(options, canvas.value(), texture, view, size);
+    if (!beside) return beside;
+    light(beside.value());
+    return side_by_side(image.value(), beside.value(), std::max(2u, size.width / 128));
 }
 
 int run_render(const RenderOptions& options) {
@@ -117,9 +133,11 @@ int run_render(const RenderOptions& options) {
     if (options.nearest && !file.silmap)
         return report_error(
             {ErrorClass::Usage, diag::kBadUsage, "--nearest is for silhouette-map textures", options.input});
-    if (options.overlay && !file.silmap && !file.pinchmap)
+    if (!options.normal_y.empty() && !options.light)
+        return report_error({ErrorClass::Usage, diag::kBadUsage, "--normal-y goes with --light", ""});
+    if (options.overlay && !file.silmap && !file.pinchmap && !file.feature_curves)
         return report_error({ErrorClass::Usage, diag::kBadUsage,
-                             "--overlay is for silhouette-map textures and pinchmaps", options.input});
+                             "--overlay is for silhouette-map textures, pinchmaps and feature curves", options.input});
     const auto image = with_texture(file, [&](const auto& texture) { return draw(options, texture); });
     if (!image) return report_error(image.error(), options.input);
     const auto png = encode_png(image.value());
@@ -135,9 +153,10 @@ Command add_render_command(CLI::App& parent) {
     CLI::App* app = parent.add_subcommand("render", "Draw a .fetex texture, or a part of it, into a PNG");
     app->add_option("input", options->input, "A .fetex file, or - for stdin")->required()->type_name("FILE");
     app->add_option("-o,--output", options->output, "The PNG to write, or - for stdout")->required()->type_name("FILE");
-    app->add_option(
-           "--repr", options->representation,
-           "Representation to draw: fbt, bilevel, silmap or pinchmap; default: the first of these that the file holds")
+    app->add_option("--repr", options->representation,
+                    "Representation to draw: fbt, bilevel, silmap, pinchmap or curves; default: the first of these "
+                    "that the file "
+                    "holds")
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     add_view_option(*app, options->view);
@@ -161,7 +180,20 @@ Command add_render_command(CLI::App& parent) {
     app->add_flag("--overlay", options->overlay,
                   "Draw what a silhouette-map texture is made of over it: boundaries and points, and magnified enough "
                   "the cells and the texels' colours; of a pinchmap the discontinuities, the active texels and which "
-                  "way they pinch");
+                  "way they pinch; the feature curves, their points on the texels' edges, and the texels");
+    app->add_option_function<std::string>(
+           "--light",
+           [options](const std::string& text) {
+               options->light = parse_light(text);
+               if (!options->light)
+                   throw CLI::ValidationError("--light", fmt::format("'{}' is not x,y,z, not all 0", text));
+           },
+           "Colours are normals: draw the surface lit from there, x right, y down, z out of the picture")
+        ->type_name("X,Y,Z");
+    app->add_option("--normal-y", options->normal_y,
+                    "Of --light: green is up or down; default down for curves, whose frame it is, else up")
+        ->check(CLI::IsMember({"up", "down"}))
+        ->type_name("WAY");
     app->add_option("--beside", options->beside,
                     "bilinear: draw to the right what an ordinary texture of the same bytes shows")
         ->check(CLI::IsMember({"bilinear"}))

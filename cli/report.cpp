@@ -195,7 +195,8 @@ FirstTexture first_texture(const CompileOutcome& o) {
     if (o.has_fbt) return {o.width, o.height, o.gpu_bytes};
     if (o.bilevel) return {o.bilevel->width, o.bilevel->height, o.bilevel->gpu_bytes};
     if (o.silmap) return {o.silmap->width, o.silmap->height, o.silmap->stats.gpu_bytes};
-    return {o.pinchmap->width, o.pinchmap->height, o.pinchmap->stats.gpu_bytes};
+    if (o.pinchmap) return {o.pinchmap->width, o.pinchmap->height, o.pinchmap->stats.gpu_bytes};
+    return {o.curves->width, o.curves->height, o.curves->stats.gpu_bytes};
 }
 
 std::string representations(const CompileOutcome& o) {
@@ -204,6 +205,7 @@ std::string representations(const CompileOutcome& o) {
     if (o.bilevel) names.emplace_back("bilevel");
     if (o.silmap) names.emplace_back("silmap");
     if (o.pinchmap) names.emplace_back("pinchmap");
+    if (o.curves) names.emplace_back("curves");
     return fmt::format("{}", fmt::join(names, ","));
 }
 
@@ -228,6 +230,7 @@ Json outcome_json(const CompileOutcome& o) {
     if (o.bilevel) json["bilevel"] = bilevel_json(*o.bilevel);
     if (o.silmap) json["silmap"] = silmap_json(*o.silmap);
     if (o.pinchmap) json["pinchmap"] = pinchmap_json(*o.pinchmap);
+    if (o.curves) json["curves"] = curves_json(*o.curves);
     json["diagnostics"] = diagnostics_json(o.report.diagnostics);
     if (o.report.image.width != 0) json["image"] = image_json(o.report.image);
     return json;
@@ -288,6 +291,7 @@ std::string report_text(const CompileOutcome& o) {
     if (o.bilevel) text += bilevel_text(*o.bilevel);
     if (o.silmap) text += silmap_text(*o.silmap);
     if (o.pinchmap) text += pinchmap_text(*o.pinchmap);
+    if (o.curves) text += curves_text(*o.curves);
     return text;
 }
 

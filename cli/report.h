@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/report_curves.h"
 #include "cli/report_pinchmap.h"
 #include "cli/report_silmap.h"
 #include "compiler/bilevel/bilevel_builder.h"
@@ -36,6 +37,7 @@ struct CompileOutcome {
     std::optional<BilevelOutcome> bilevel = {};
     std::optional<SilmapOutcome> silmap = {};
     std::optional<PinchmapOutcome> pinchmap = {};
+    std::optional<CurvesOutcome> curves = {};
     CompileReport report;    ///< without an FBT: what the front end did, the image's size, the diagnostics
     double milliseconds = 0; ///< wall clock, front end and compiler; the only figure here that differs between runs
 };

@@ -8,9 +8,12 @@
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/feature_curves/curve_texture.h"
 #include "compiler/feature_curves/feature_samples.h"
 #include "compiler/scene/lattice.h"
 #include "formats/bitmap_samples.h"
+#include "formats/fbt_mip.h"
+#include "formats/feature_sampler.h"
 
 namespace fetexc {
 namespace {
@@ -58,10 +61,34 @@ FeatureProfile choose_profile(const Network& network, const FeatureCurvesOptions
 /// farther.
 double limit_for(const FeatureProfile& profile, double scale) { return profile.width * scale + std::numbers::sqrt2; }
 
+bool makes_linear(const Network& network, const FeatureCurvesOptions& options) {
+    return options.linear || std::ranges::all_of(network.curves, [](const NetworkCurve& c) {
+               return std::ranges::all_of(c.segments, [](const CanvasSegment& s) { return s.degree == 1; });
+           });
+}
+
 Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions& options) {
-    auto lines = lattice_lines(network, options.size.width, options.size.height);
-    if (!lines) return lines.error();
-    return snap_lines(lines.value(), options.size.width, options.size.height);
+    const GridSize size = options.size;
+    if (makes_linear(network, options)) {
+        auto lines = lattice_lines(network, size.width, size.height);
+        if (!lines) return lines.error();
+        return snap_lines(lines.value(), size.width, size.height);
+    }
+    auto curves = lattice_curves(network);
+    if (!curves) return curves.error();
+    return snap_quadratics(curves.value(), size.width, size.height, options.threads);
+}
+
+/// Configurations and signatures.
+FeatureCurvesTexture write_curves(const SnappedCurves& curves, bool linear, const FeatureCurvesOptions& options,
+                                  double limit, FeatureCurvesBuild& build) {
+    const auto most = static_cast<float>(std::min(limit, kMostDistance));
+    if (linear) return linear_texture(curves, options.numbers, most);
+    QuadraticTexture written = quadratic_texture(curves, options.numbers, most);
+    build.stats.flat = written.flat, build.stats.straightened_by_rounding = written.straightened;
+    for (Diagnostic& d : rounding_diagnostics(written))
+        build.diagnostics.push_back(std::move(d));
+    return std::move(written.texture);
 }
 
 void count(const SnappedCurves& curves, const DistanceMap& map, FeatureCurvesBuild& build) {
@@ -106,13 +133,8 @@ std::uint64_t bytes_at(GridSize size, const FeatureCurvesOptions& options, bool 
     return 2 * std::uint64_t{size.width} * size.height +
            corners * numbers * fetex::feature_number_bytes(options.numbers) +
            samples * fetex::bitmap_sample_bytes(options.sample_format) +
-           kFeatureProfileEntries * sizeof(fetex::FeatureProfileEntry);
-}
-
-bool all_lines(const Network& network) {
-    return std::ranges::all_of(network.curves, [](const NetworkCurve& c) {
-        return std::ranges::all_of(c.segments, [](const CanvasSegment& s) { return s.degree == 1; });
-    });
+           kFeatureProfileEntries * sizeof(fetex::FeatureProfileEntry) +
+           (options.mips ? 4 * fetex::fbt_mip_samples(size.width, size.height) : 0);
 }
 
 } // namespace
@@ -133,12 +155,13 @@ Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const 
     if (!curves) return curves.error();
     const double scale = texels_per_unit(network, options.size);
     const double limit = options.limit > 0 ? options.limit : limit_for(build.profile, scale);
-    build.texture = linear_texture(curves.value(), options.numbers, static_cast<float>(std::min(limit, kMostDistance)));
+    build.texture = write_curves(curves.value(), makes_linear(network, options), options, limit, build);
     build.texture.kind = options.kind;
     if (progress) progress("distances", 0.5);
     const DistanceMap map = add_distances(options, build.texture);
     add_profile(build.profile, scale, build.texture);
     add_base(options, scale, build.texture);
+    if (options.mips) build.texture.mips = fetex::feature_make_mips(build.texture);
     count(curves.value(), map, build);
     for (Diagnostic& d : snap_diagnostics(curves.value()))
         build.diagnostics.push_back(std::move(d));
@@ -150,12 +173,12 @@ Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network,
                                                          std::uint64_t max_bytes, const ProgressSink& progress) {
     const Result<Extent> extent = make_extent(network.width, network.height);
     if (!extent) return extent.error();
-    const bool linear = options.linear || all_lines(network);
+    const bool linear = makes_linear(network, options);
     const auto fits = [&](std::uint32_t side) {
         return bytes_at(grid_for(extent.value(), side), options, linear) <= max_bytes;
     };
     if (!fits(1))
-        return Error{ErrorClass::Usage, diag::kFeatureBudget,
+        return Error{ErrorClass::Unsupported, diag::kFeatureBudget,
                      "no size of a texture with feature curves fits in " + std::to_string(max_bytes) + " bytes", ""};
     std::uint32_t least = 1, most = kMaxSide + 1; // the first fits, the last doesn't
     while (most - least > 1) {

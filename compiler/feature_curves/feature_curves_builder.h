@@ -29,6 +29,7 @@ struct FeatureCurvesOptions {
     /// Without an image: one sample. Heights are in user units here.
     BaseImage base;
     Rgba base_color;      ///< straight; of colours without an image
+    bool mips = false;    ///< of what is shown
     unsigned threads = 1; ///< 0: all; never changes a byte
 };
 
@@ -36,6 +37,8 @@ struct FeatureCurvesOptions {
 struct FeatureCurvesStats {
     std::uint64_t curves = 0, segments = 0; ///< of the network
     SnapStats snapping;
+    std::uint64_t flat = 0;                       ///< segments so little bent that they are straight
+    std::uint64_t straightened_by_rounding = 0;   ///< segments not valid with the numbers that the texture has
     std::uint64_t moved = 0;                      ///< texels that aren't as the network has them
     double farthest = 0;                          ///< of them: texels
     std::uint64_t texels_one = 0, texels_two = 0; ///< with one segment, two

@@ -5,6 +5,7 @@
 
 #include "compiler/measure/bilinear.h"
 #include "compiler/measure/colors.h"
+#include "formats/feature_sampler.h"
 
 namespace fetexc::measure {
 
@@ -35,6 +36,13 @@ Rgba PinchmapPicture::at(TexturePoint p) const {
 }
 
 std::uint64_t PinchmapPicture::gpu_bytes() const { return fetex::pinchmap_gpu_bytes(texture_); }
+
+Rgba FeatureCurvesPicture::at(TexturePoint p) const {
+    const fetex::FbtColor c = fetex::feature_sample(texture_, p.u * texture_.width, p.v * texture_.height);
+    return {c.r, c.g, c.b, c.a};
+}
+
+std::uint64_t FeatureCurvesPicture::gpu_bytes() const { return fetex::feature_gpu_bytes(texture_); }
 
 BitmapPicture::BitmapPicture(GridSize size, std::vector<std::uint8_t> rgba, Filter filter)
     : size_(size), rgba_(std::move(rgba)), filter_(filter) {

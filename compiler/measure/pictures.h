@@ -9,6 +9,7 @@
 #include "compiler/measure/picture.h"
 #include "formats/bilevel.h"
 #include "formats/fbt.h"
+#include "formats/feature_curves.h"
 #include "formats/pinchmap.h"
 #include "formats/silmap.h"
 
@@ -67,6 +68,19 @@ class PinchmapPicture final : public Picture {
     const fetex::PinchmapTexture& texture_;
 };
 
+/// At points, without regard to pixels.
+class FeatureCurvesPicture final : public Picture {
+  public:
+    /// A validated texture that outlives the picture.
+    explicit FeatureCurvesPicture(const fetex::FeatureCurvesTexture& texture) : texture_(texture) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override;
+    [[nodiscard]] GridSize texels() const override { return {texture_.width, texture_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override;
+
+  private:
+    const fetex::FeatureCurvesTexture& texture_;
+};
+
 /// Of a validated texture that outlives the picture.
 inline std::unique_ptr<const Picture> picture_of(const fetex::FbtTexture& t) { return std::make_unique<FbtPicture>(t); }
 inline std::unique_ptr<const Picture> picture_of(const fetex::BilevelTexture& t) {
@@ -77,6 +91,9 @@ inline std::unique_ptr<const Picture> picture_of(const fetex::SilmapTexture& t) 
 }
 inline std::unique_ptr<const Picture> picture_of(const fetex::PinchmapTexture& t) {
     return std::make_unique<PinchmapPicture>(t);
+}
+inline std::unique_ptr<const Picture> picture_of(const fetex::FeatureCurvesTexture& t) {
+    return std::make_unique<FeatureCurvesPicture>(t);
 }
 
 /// Stretched over the canvas, without mip levels; borders are clamped.

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/compile_curves.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cli/compile_image.h"
+#include "cli/compile_silmap.h"
+#include "cli/io.h"
+#include "compiler/network/network_reader.h"
+#include "compiler/network/profile_reader.h"
+#include "compiler/scene/lattice.h"
+#include "formats/fetex_file.h"
+
+namespace fetexc::cli {
+namespace {
+
+constexpr std::uint64_t kMaxProfileBytes = std::uint64_t{1} << 24;
+constexpr std::uint32_t kMostIterations = 10000;
+constexpr double kMostTexels = 65504;           // of the distance limit: the format's
+constexpr std::uint32_t kFeatureTexels = 16384; // drawings' raster layers have no curves; any size does
+
+fetex::FeatureKind kind_of(const std::string& name) {
+    if (name == "color") return fetex::FeatureKind::Color;
+    return name == "height" ? fetex::FeatureKind::Height : fetex::FeatureKind::Normal;
+}
+
+fetex::FeatureNumberFormat numbers_of(const std::string& name) {
+    if (name == "float") return fetex::FeatureNumberFormat::Float;
+    return name == "half" ? fetex::FeatureNumberFormat::Half : fetex::FeatureNumberFormat::Bits16;
+}
+
+bool is_preset(const std::string& name) { return std::ranges::count(kProfilePresets, name) > 0; }
+
+/// One of the network's, a preset, or a file's, whose name `file` becomes.
+Result<std::optional<FeatureProfile>> wanted_profile(const Network& network, const CurvesCommandOptions& how,
+                                                     std::string& file) {
+    if (how.profile.empty()) return std::optional<FeatureProfile>();
+    if (const auto own = std::ranges::find(network.profiles, how.profile, &FeatureProfile::name);
+        own != network.profiles.end() && how.profile_width == 0)
+        return std::optional(*own);
+    if (is_preset(how.profile)) {
+        const double width =
+            how.profile_width > 0 ? how.profile_width : kPresetWidth * std::max(network.width, network.height);
+        return preset_profile(how.profile, width);
+    }
+    const auto bytes = read_input(how.profile, kMaxProfileBytes);
+    if (!bytes) return bytes.error();
+    file = how.profile;
+    auto profile = read_profile(bytes.value());
+    if (!profile) return profile.error();
+    return std::optional(std::move(profile).value());
+}
+
+struct LoadedBase {
+    RasterImage image;
+    std::string hash;
+};
+
+Result<LoadedBase> load_base(const CurvesRequest& request, std::vector<Diagnostic>& diagnostics) {
+    LoadedBase base;
+    const auto bytes = read_input(request.how.base, kMaxImageBytes);
+    if (!bytes) return bytes.error();
+    base.hash = hash_of(bytes.value());
+    auto image = read_image(request.how.base, request.samples == "float" && request.how.kind == "color", diagnostics);
+    if (!image) return image.error();
+    base.image = std::move(image).value();
+    return base;
+}
+
+BaseImageKind base_kind(const CurvesCommandOptions& how) {
+    if (how.base_height > 0) return BaseImageKind::Height;
+    return how.kind == "normal" ? BaseImageKind::Normal : BaseImageKind::Color;
+}
+
+FeatureCurvesOptions builder_options(const CurvesRequest& request) {
+    FeatureCurvesOptions options;
+    options.numbers = numbers_of(request.how.numbers), options.linear = request.how.linear;
+    options.kind = kind_of(request.how.kind), options.sample_format = silmap_sample_format(request.samples);
+    options.mips = request.mips;
+    options.limit = request.how.limit, options.smooth = request.how.smooth, options.threads = request.threads;
+    const auto color = *parse_color(request.how.base_color);
+    options.base_color = {color[0], color[1], color[2], color[3]};
+    options.base.kind = base_kind(request.how), options.base.y_up = request.how.normal_y == "up";
+    if (request.how.base_height > 0) options.base.height_scale = request.how.base_height;
+    return options;
+}
+
+} // namespace
+
+bool is_network(std::span<const std::uint8_t> bytes) {
+    const auto first =
+        std::ranges::find_if(bytes, [](std::uint8_t c) { return c != ' ' && c != '\t' && c != '\n' && c != '\r'; });
+    return first != bytes.end() && *first == '{';
+}
+
+Result<Network> network_of_bytes(const std::vector<std::uint8_t>& bytes, const std::string& curves,
+                                 const SceneOptions& scene, unsigned threads, std::vector<Diagnostic>& diagnostics) {
+    if (is_network(bytes)) return read_network(bytes, diagnostics);
+    const SvgCurves which = curves == "strokes" ? SvgCurves::Strokes
+                            : curves == "edges" ? SvgCurves::Edges
+                                                : SvgCurves::All;
+    auto features = load_svg_features(bytes, svg_options(scene, kFeatureTexels, threads), diagnostics, which);
+    if (!features) return features.error();
+    return network_of(features.value());
+}
+
+Result<CompiledCurves> compile_curves(const Network& network, const CurvesRequest& request,
+                                      const ProgressSink& progress, std::vector<Diagnostic>& diagnostics) {
+    FeatureCurvesOptions options = builder_options(request);
+    CompiledCurves out;
+    auto profile = wanted_profile(network, request.how, out.profile_file);
+    if (!profile) return profile.error();
+    options.profile = std::move(profile).value();
+    LoadedBase base;
+    if (!request.how.base.empty()) {
+        auto loaded = load_base(request, diagnostics);
+        if (!loaded) return loaded.error();
+        base = std::move(loaded).value(), options.base.image = &base.image;
+    }
+    const Result<Extent> extent = make_extent(network.width, network.height);
+    if (!extent) return extent.error();
+    const SizeValue& size = request.size;
+    options.size = size.longer != 0 ? grid_for(extent.value(), size.longer) : GridSize{size.width, size.height};
+    auto build = request.max_bytes == 0 ? compile_feature_curves(network, options, progress)
+                                        : compile_feature_curves_within(network, options, request.max_bytes, progress);
+    if (!build) return build.error();
+    const std::vector<Diagnostic>& said = build.value().diagnostics;
+    diagnostics.insert(diagnostics.end(), said.begin(), said.end());
+    out.build = std::move(build).value(), out.base_hash = base.hash;
+    return out;
+}
+
+std::string options_text(const CurvesRequest& request, const FeatureCurvesBuild& build) {
+    const CurvesCommandOptions& how = request.how;
+    std::string text = fmt::format("kind={} numbers={} limit={:g} smooth={}", how.kind, how.numbers,
+                                   build.texture.distance_limit, how.smooth);
+    if (how.linear) text += " linear";
+    if (how.curves != "all") text += " curves=" + how.curves;
+    if (!build.profile.name.empty()) text += " profile=" + fetex::to_valid_utf8(build.profile.name);
+    text += fmt::format(" profile-width={:g}", build.profile.width);
+    if (how.base_height > 0) text += fmt::format(" base-height={:g}", how.base_height);
+    if (how.kind == "color" && how.base.empty()) text += " base-color=" + how.base_color;
+    return text;
+}
+
+const char* kind_name(fetex::FeatureKind kind) {
+    switch (kind) {
+    case fetex::FeatureKind::Color:
+        return "color";
+    case fetex::FeatureKind::Normal:
+        return "normal";
+    case fetex::FeatureKind::Height:
+        return "height";
+    }
+    return "";
+}
+
+const char* numbers_name(fetex::FeatureNumberFormat format) {
+    switch (format) {
+    case fetex::FeatureNumberFormat::Float:
+        return "float";
+    case fetex::FeatureNumberFormat::Half:
+        return "half";
+    case fetex::FeatureNumberFormat::Bits16:
+        return "16";
+    }
+    return "";
+}
+
+std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions& options) {
+    std::vector<CLI::Option*> all;
+    const auto add = [&](CLI::Option* option) {
+        all.push_back(option);
+        return option;
+    };
+    add(app.add_option("--curves", options.curves,
+                       "Of a texture with feature curves: what of a drawing is one: edges, the middles of strokes "
+                       "(strokes), or all (default: edges of fills, and middles)"))
+        ->check(CLI::IsMember({"all", "strokes", "edges"}))
+        ->type_name("NAME");
+    add(app.add_option("--kind", options.kind,
+                       "Of a texture with feature curves: what it shows, normals (default), colours or heights"))
+        ->check(CLI::IsMember({"normal", "color", "height"}))
+        ->type_name("NAME");
+    add(app.add_option("--numbers", options.numbers,
+                       "Of a texture with feature curves: its numbers, integers of 16 bits (default), half or float"))
+        ->check(CLI::IsMember({"16", "half", "float"}))
+        ->type_name("FORMAT");
+    add(app.add_flag("--linear", options.linear,
+                     "A texture with feature curves that are straight in each texel: smaller and faster"));
+    add(app.add_option("--limit", options.limit,
+                       "Of a texture with feature curves: texels up to which distances are known; default: as far as "
+                       "the profile needs"))
+        ->check(number_range(0x1p-10, kMostTexels))
+        ->type_name("TEXELS");
+    add(app.add_option("--smooth", options.smooth,
+                       "Of a texture with feature curves: how often its gradients are smoothed (default 10)"))
+        ->check(CLI::Range(0U, kMostIterations))
+        ->type_name("N");
+    CLI::Option* profile = add(
+        app.add_option("--profile", options.profile,
+                       "What is done near feature curves: crease, groove, ridge, seam, one of the network's profiles, "
+                       "or a JSON file of one ($defs/profile of cli/schema/network.schema.json); default: as the "
+                       "network says, else crease"));
+    profile->type_name("NAME|FILE");
+    add(app.add_option("--profile-width", options.profile_width,
+                       "How far a profile of those four reaches, in the drawing's units; default: a 64th of its "
+                       "larger side"))
+        ->check(number_range(1e-9, 1e12))
+        ->needs(profile)
+        ->type_name("UNITS");
+    CLI::Option* base =
+        add(app.add_option("--base", options.base,
+                           "What a texture with feature curves shows far from them: an image of normals, colours or "
+                           "heights; default: flat"));
+    base->type_name("IMAGE");
+    add(app.add_option("--base-height", options.base_height,
+                       "The --base is heights, of which white has so many of the drawing's units"))
+        ->check(number_range(1e-9, 1e12))
+        ->needs(base)
+        ->type_name("UNITS");
+    add(app.add_option("--base-color", options.base_color,
+                       "Of colours without --base, #rrggbb or #rrggbbaa; default white"))
+        ->check([](const std::string& text) {
+            return parse_color(text) ? std::string() : fmt::format("'{}' is not #rrggbb or #rrggbbaa", text);
+        })
+        ->excludes(base)
+        ->type_name("COLOR");
+    add(app.add_option("--normal-y", options.normal_y, "Of a --base of normals: green is up (default) or down"))
+        ->check(CLI::IsMember({"up", "down"}))
+        ->needs(base)
+        ->type_name("WAY");
+    return all;
+}
+
+} // namespace fetexc::cli
