@@ -43,16 +43,6 @@ std::optional<FeaturePoint> middle_point(FeaturePoint a, double angle_a, Feature
     return FeaturePoint{a.x + along * ax, a.y + along * ay};
 }
 
-bool passes_safety_test(const SegmentCurve& curve) {
-    const double cx = curve[2].x - curve[0].x, cy = curve[2].y - curve[0].y, square = cx * cx + cy * cy;
-    const double mx = curve[1].x - (curve[0].x + curve[2].x) / 2, my = curve[1].y - (curve[0].y + curve[2].y) / 2;
-    // The middle point where the ends are (∓1/2, 0).
-    const double x0 = (mx * cx + my * cy) / square, y0 = (my * cx - mx * cy) / square, length = std::hypot(x0, y0);
-    const double axis = x0 * y0 / (4 * length * length * length), half = y0 / (2 * length);
-    const double least = std::min({std::abs(axis), std::abs(axis + half), std::abs(axis - half)});
-    return least * std::sqrt(square) > std::numbers::sqrt2;
-}
-
 bool comes_back(const SegmentCurve& c) {
     const Parabola x{c[0].x, c[1].x - c[0].x, c[0].x - 2 * c[1].x + c[2].x},
         y{c[0].y, c[1].y - c[0].y, c[0].y - 2 * c[1].y + c[2].y};
@@ -72,7 +62,7 @@ bool comes_back(const SegmentCurve& c) {
 SignatureFault fault_of(const SegmentCurve& curve) {
     if (distance(curve[0], curve[2]) == 0) return SignatureFault::NoMiddle;
     if (!inside(curve[1], budget::kFeatureLeastHandle)) return SignatureFault::Outside;
-    return passes_safety_test(curve) || !comes_back(curve) ? SignatureFault::None : SignatureFault::SideTest;
+    return comes_back(curve) ? SignatureFault::SideTest : SignatureFault::None;
 }
 
 ShownSegment shown_segment(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j, std::uint32_t segment) {

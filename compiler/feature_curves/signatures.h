@@ -24,10 +24,9 @@ enum class SignatureFault : std::uint8_t {
 std::optional<fetex::FeaturePoint> middle_point(fetex::FeaturePoint a, double angle_a, fetex::FeaturePoint b,
                                                 double angle_b);
 
-/// The paper's safety test (7): all of its parabola's points in the texel lie on one side of the axis.
-bool passes_safety_test(const SegmentCurve& curve);
-/// The parabola beyond the segment meets the inside of the texel. (7), and for symmetric segments the least angle θmin,
-/// suffice for it not to.
+/// The parabola beyond the segment meets the inside of the texel: then its sign doesn't tell the segment's sides.
+/// Decided where it is on the texel's border; the paper's test (7) and least angle θmin stand for this and are nearly
+/// always right.
 bool comes_back(const SegmentCurve& curve);
 
 SignatureFault fault_of(const SegmentCurve& curve);
