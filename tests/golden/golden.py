@@ -28,7 +28,7 @@ def compile_digest(fetexc, drawing, how, jobs, folder):
 
 def assets(art):
     """Yields (name, drawing, options): all drawings as FBTs and silhouette maps, those of two colours as bi-level
-    textures and pinchmaps."""
+    textures and pinchmaps, networks as textures with feature curves."""
     for drawing in sorted(art.glob("*.svg")):
         for size in SIZES:
             yield f"{drawing.stem}.{size}.fbt", drawing, ["--size", str(size)]
@@ -41,6 +41,10 @@ def assets(art):
             yield f"alternatives/{drawing.stem}.{size}.bilevel", drawing, options
         options = ["--repr", "pinchmap", "--mips", "--size", str(CLUSTERS)]
         yield f"alternatives/{drawing.stem}.pinchmap", drawing, options
+    for network in sorted((art / "network").glob("*.json")):
+        for form in ("linear", "curved"):
+            options = ["--repr", "curves", "--mips", "--size", str(SIZES[0])] + (["--linear"] if form == "linear" else [])
+            yield f"network/{network.stem}.{form}.curves", network, options
 
 
 def digests(fetexc, art):

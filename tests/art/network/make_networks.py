@@ -89,7 +89,7 @@ def burst():
         def at(radius, angle):
             return 100 + radius * math.cos(turn + angle), 100 + radius * math.sin(turn + angle)
         curves.append({"name": f"arm {k}", "start": [100, 100],
-                       "segments": [points(*at(30, 0), *at(52, 0.5)), points(*at(74, 0.95), *at(94, 1.0))]})
+                       "segments": [points(*at(34, 0), *at(66, 0.3), *at(94, 0.9))]})
     c = 0.5523 * 60
     curves.append({"name": "ring", "closed": True, "start": [160, 100],
                    "segments": [[160, 100 + c, 100 + c, 160, 100, 160], [100 - c, 160, 40, 100 + c, 40, 100],
@@ -108,7 +108,7 @@ def crease():
 def normal_map(size=64):
     """Bumps, green up."""
     def height(x, y):
-        return 5 * math.sin(x / 9) * math.cos(y / 11) + 2 * math.sin((x + y) / 7)
+        return 3 * math.sin(x / 9) * math.cos(y / 11) + math.sin((x + y) / 7)
 
     rows = bytearray()
     for y in range(size):
