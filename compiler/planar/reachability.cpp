@@ -16,32 +16,6 @@ void sort_unique(std::vector<ReachLink>& links) {
 
 } // namespace
 
-/// Parts without length go; parts of one vertex join.
-void ReachabilityRow::append(Parts& parts, const LinePosition& from, std::uint32_t vertex) {
-    if (!parts.empty() && parts.back().from == from) parts.pop_back();
-    if (parts.empty() || parts.back().vertex != vertex) parts.push_back({from, vertex});
-}
-
-/// visit(vertex of a, vertex of b, from, to) for every stretch along which the two face each other.
-template <class Visit>
-void ReachabilityRow::facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end,
-                             bool& undecided, const Visit& visit) {
-    const auto end_of = [&](const Parts& parts, std::size_t k) {
-        return k + 1 < parts.size() ? parts[k + 1].from : LinePosition{end};
-    };
-    const auto before = [&](const LinePosition& p, const LinePosition& q) {
-        return map.before(p, q, across, undecided);
-    };
-    std::size_t i = 0, k = 0;
-    while (i < a.size() && k < b.size()) {
-        const LinePosition a_end = end_of(a, i), b_end = end_of(b, k);
-        const LinePosition from = std::max(a[i].from, b[k].from, before), to = std::min(a_end, b_end, before);
-        if (before(from, to)) visit(a[i].vertex, b[k].vertex, from, to);
-        if (!before(b_end, a_end)) ++i;
-        if (!before(a_end, b_end)) ++k;
-    }
-}
-
 std::uint32_t ReachabilityRow::new_vertex(ResultId result) {
     column_.push_back(next_);
     result_.push_back(result);
@@ -71,7 +45,7 @@ std::uint32_t ReachabilityRow::add_empty(ResultId result) {
     scratch_.assign(1, {{2 * static_cast<HalfStep>(row_)}, v});
     if (next_ > 0) link_to_left(scratch_);
     const LinePosition corner{2 * static_cast<HalfStep>(next_)};
-    append(top_, corner, v), append(bottom_, corner, v);
+    append_part(top_, corner, v), append_part(bottom_, corner, v);
     right_ = scratch_;
     run_ = true;
     ++next_;
@@ -87,8 +61,8 @@ std::uint32_t ReachabilityRow::add_texel(const TexelMap& texel, std::span<const 
     if (next_ > 0) link_to_left(scratch_);
     for (const auto& [side, line] : {std::pair(TexelSide::Top, &top_), std::pair(TexelSide::Bottom, &bottom_)}) {
         list_parts(texel, side, region_of_face, first, scratch_);
-        for (const Part& p : scratch_)
-            append(*line, p.from, p.vertex);
+        for (const LinePart& p : scratch_)
+            append_part(*line, p.from, p.vertex);
     }
     list_parts(texel, TexelSide::Right, region_of_face, first, right_);
     run_ = false;
@@ -104,7 +78,7 @@ void ReachabilityRow::list_parts(const TexelMap& texel, TexelSide side, std::spa
     for (const SidePart& p : texel.sweep.sides[static_cast<std::size_t>(side)]) {
         const LinePosition from =
             p.from == kNone ? corner : map_->position(texel.graph.nodes[p.from], vertical ? Axis::X : Axis::Y);
-        append(out, from, first + region_of_face[p.face]);
+        append_part(out, from, first + region_of_face[p.face]);
     }
 }
 
@@ -138,24 +112,23 @@ ReachabilityGraph::RowLinks ReachabilityGraph::links_of(const ReachabilityRow& r
 void ReachabilityGraph::link_rows(const PlanarMap& map, const ReachabilityRow& above, const ReachabilityRow& below,
                                   RowLinks& out) const {
     bool undecided = false;
-    ReachabilityRow::facing(
-        map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width), undecided,
-        [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
-            const bool linked =
-                above.separation_ == Separation::Edges
-                    ? !map.runs_along(Axis::Y, static_cast<std::uint32_t>(from.h >> 1), below.row_, from, to, undecided)
-                    : above.result_[a] == below.result_[b];
-            if (above.separation_ == Separation::Edges && !linked) return;
-            if (linked) {
-                out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
-                return;
-            }
-            const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
-            for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
-                const auto i = static_cast<std::uint32_t>(h);
-                if (!map.runs_along(Axis::Y, i, below.row_, from, to, undecided)) out.conflict = {i, below.row_};
-            }
-        });
+    facing(map, Axis::Y, above.bottom_, below.top_, 2 * static_cast<HalfStep>(map.grid().width), undecided,
+           [&](std::uint32_t a, std::uint32_t b, const LinePosition& from, const LinePosition& to) {
+               const bool linked = above.separation_ == Separation::Edges
+                                       ? !map.runs_along(Axis::Y, static_cast<std::uint32_t>(from.h >> 1), below.row_,
+                                                         from, to, undecided)
+                                       : above.result_[a] == below.result_[b];
+               if (above.separation_ == Separation::Edges && !linked) return;
+               if (linked) {
+                   out.links.push_back({row_start_[above.row_] + a, row_start_[below.row_] + b});
+                   return;
+               }
+               const HalfStep last = (to.h - 1) >> 1; // texel that holds the stretch's end
+               for (HalfStep h = from.h >> 1; h <= last && !out.conflict; ++h) {
+                   const auto i = static_cast<std::uint32_t>(h);
+                   if (!map.runs_along(Axis::Y, i, below.row_, from, to, undecided)) out.conflict = {i, below.row_};
+               }
+           });
     if (undecided && !out.conflict) out.conflict = {0, below.row_};
 }
 

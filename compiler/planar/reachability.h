@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/planar/facing.h"
 #include "compiler/planar/texel_map.h"
 
 namespace fetexc {
@@ -51,16 +52,7 @@ class ReachabilityRow {
 
   private:
     friend class ReachabilityGraph;
-    /// Along a grid line, from a position to the next part's.
-    struct Part {
-        LinePosition from;
-        std::uint32_t vertex = 0;
-    };
-    using Parts = std::vector<Part>;
-    static void append(Parts& parts, const LinePosition& from, std::uint32_t vertex);
-    template <class Visit>
-    static void facing(const PlanarMap& map, Axis across, const Parts& a, const Parts& b, HalfStep end, bool& undecided,
-                       const Visit& visit);
+    using Parts = std::vector<LinePart>;
     std::uint32_t new_vertex(ResultId result);
     void link_to_left(const Parts& left);
     /// The texel's side, in parts; replaces `out`.

@@ -52,6 +52,35 @@ bool TexelMapper::analyse(std::uint32_t i, std::uint32_t j, const Windings& corn
     return assign_results(corner, out);
 }
 
+namespace {
+
+/// On a side of the texel, not in a corner.
+bool on_one_side(const GridNode& n) { return n.hx % 2 == 0 ? n.hy % 2 != 0 : n.hy % 2 == 0; }
+
+} // namespace
+
+bool TexelMapper::analyse_lone(std::uint32_t i, std::uint32_t j, const Windings& corner, LoneEdge& out) {
+    const std::span<const SubEdge> sub_edges = map_.sub_edges(i, j);
+    if (sub_edges.size() != 1 || !skip_.direct_sweep || faces_apart_) return false;
+    const SubEdge& sub = sub_edges.front();
+    const GridNode &p = map_.node(sub.n0), &q = map_.node(sub.n1);
+    if (!on_one_side(p) || !on_one_side(q)) return false;
+    int order = order_.compare(sub.n0, sub.n1, Axis::Y);
+    if (order == 0) order = order_.compare(sub.n0, sub.n1, Axis::X);
+    if (order == 0 || order_.undecided()) return false;
+    out = {i, j, &sub, order < 0 ? sub.n0 : sub.n1, order < 0 ? sub.n1 : sub.n0, order < 0};
+    // The corner is left of what starts on the top or on the right, above and right of what starts on the left.
+    const GridNode& top = map_.node(out.top);
+    const bool corner_right = top.hx == 2 * static_cast<HalfStep>(i);
+    beyond_ = corner;
+    add_windings(beyond_, map_.contributions_of(sub), out.down == corner_right ? -1 : 1);
+    (corner_right ? out.right : out.left) = lookup_(corner);
+    (corner_right ? out.left : out.right) = lookup_(beyond_);
+    constexpr std::uint64_t trapezoids = 4, regions = 2; // as the sweep counts them
+    stats_.trapezoids += trapezoids, stats_.regions += regions;
+    return true;
+}
+
 /// For each face the portions along it (CSR).
 void TexelMapper::list_portions_of_faces(const SweepResult& s) {
     portion_start_.assign(s.faces.size() + 1, 0);

@@ -22,6 +22,16 @@ struct TexelMap {
     [[nodiscard]] ResultId right_result(const Portion& p) const { return results[p.right]; }
 };
 
+/// The only edge of a texel, from one of its sides to another; its ends are no corners. From top to bottom, as the
+/// sweep has it.
+struct LoneEdge {
+    std::uint32_t i = 0, j = 0; ///< texel
+    const SubEdge* sub = nullptr;
+    std::uint32_t top = 0, bottom = 0; ///< map nodes
+    bool down = true;                  ///< t grows from top to bottom
+    ResultId left = 0, right = 0;
+};
+
 /// Winding numbers → visible result; remembers the last answer, because neighbours mostly ask the same.
 class ResultLookup {
   public:
@@ -51,6 +61,9 @@ class TexelMapper {
     /// caller).
     bool analyse(std::uint32_t i, std::uint32_t j, const Windings& corner, TexelMap& out);
 
+    /// The same of a texel with a lone edge, without a sweep. False: it has none, and stays to be analysed.
+    bool analyse_lone(std::uint32_t i, std::uint32_t j, const Windings& corner, LoneEdge& out);
+
     Sweep& sweep() { return sweep_; }
     ResultLookup& lookup() { return lookup_; }
 
@@ -74,6 +87,7 @@ class TexelMapper {
     std::vector<std::pair<std::uint32_t, std::int32_t>> portion_of_face_; ///< +1: the face lies left of it
     std::vector<Windings> windings_;                                      ///< per face
     std::vector<bool> known_;
+    Windings beyond_; ///< a lone edge
 };
 
 } // namespace fetexc

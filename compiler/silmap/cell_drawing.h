@@ -34,6 +34,8 @@ struct CellDrawing {
     std::vector<CellCorner> corners;  ///< strictly inside the cell
     std::vector<SideResult> left;     ///< the first from 0
     std::vector<double> crossings[4]; ///< by link: where visible edges end on that side, x or y
+
+    void clear();
 };
 
 /// Reads cell after cell, keeping its scratch memory.
@@ -42,15 +44,20 @@ class CellReader {
     /// chord: cells; what chords may miss edges by.
     CellReader(const PlanarMap& map, double chord) : map_(map), chord_(chord) {}
     void read(const TexelMap& cell, CellDrawing& out);
+    void read(const LoneEdge& edge, CellDrawing& out);
 
   private:
+    struct Polygon;
     struct EdgeEnd {
         std::uint32_t node = 0; ///< of the sweep
         fetex::SilmapPoint direction;
     };
+    [[nodiscard]] Polygon polygon_of(const LoneEdge& edge) const;
+    void add_chords(const Polygon& edge, ResultId left, ResultId right, CellDrawing& out) const;
     void add_edge(const TexelMap& cell, const Portion& p, CellDrawing& out);
     void find_corners(const TexelMap& cell, CellDrawing& out);
-    [[nodiscard]] fetex::SilmapPoint place_of(const TexelMap& cell, std::uint32_t node) const;
+    /// Of a map node, in the cell's frame.
+    [[nodiscard]] fetex::SilmapPoint place_of(std::uint32_t i, std::uint32_t j, std::uint32_t node) const;
 
     const PlanarMap& map_;
     double chord_;

@@ -8,29 +8,24 @@
 namespace fetexc {
 namespace {
 
-void place(SilmapCellData& c, std::uint32_t x, std::uint32_t y, fetex::SilmapCellFormat format) {
-    c.x = x, c.y = y;
-    c.shown.point = {fetex::silmap_position(format, x), fetex::silmap_position(format, y)};
+void place(SilmapCellData& c, const CellSteps& at, fetex::SilmapCellFormat format) {
+    c.x = at.x, c.y = at.y;
+    c.shown.point = {fetex::silmap_position(format, at.x), fetex::silmap_position(format, at.y)};
 }
 
 /// What else is read of a row: of drawings, or of features.
 struct RowNotes {
     PartsRow* parts = nullptr;
     FaceRow* faces = nullptr;
-
-    void add_empty(ResultId result, bool middle) const {
-        if (parts != nullptr)
-            parts->add_empty(result, middle);
-        else
-            faces->add_empty();
-    }
-    void add_cell(const TexelMap& cell, bool middle) const {
-        if (parts != nullptr)
-            parts->add_cell(cell, middle);
-        else
-            faces->add(cell);
-    }
 };
+
+/// A cell with visible edges, before its neighbours are known.
+struct ReadCell {
+    std::uint32_t i = 0;
+    CellSteps seed;
+    std::uint32_t first_slab = 0, slabs = 0, edges_across = 0, corners = 0; ///< as in SilmapCellData
+};
+using ReadRow = std::vector<ReadCell>;
 
 class RowReader {
   public:
@@ -42,22 +37,19 @@ class RowReader {
     }
 
     /// False: the map contradicts itself.
-    bool read(std::uint32_t j, std::vector<SilmapCellData>& cells) {
+    bool read(std::uint32_t j, ReadRow& cells) {
         bool good = true;
         map_.along_row(j, [&](std::uint32_t i, const Windings& corner) {
             if (i > out_.width || !good) return;
-            const bool empty = map_.sub_edges(i, j).empty();
+            const std::size_t edges = map_.sub_edges(i, j).size();
             ++stats_.texels;
-            ++(empty                              ? stats_.texels_empty
-               : map_.sub_edges(i, j).size() == 1 ? stats_.texels_simple
-                                                  : stats_.texels_arranged);
+            ++(edges == 0 ? stats_.texels_empty : edges == 1 ? stats_.texels_simple : stats_.texels_arranged);
             if (notes_.faces == nullptr) note_result(i, j, mapper_.lookup()(corner));
-            const bool middle = i > 0 && j > 0; // of a texel
-            if (empty) return notes_.add_empty(out_.inside(i, j), middle);
-            good = mapper_.analyse(i, j, corner, cell_);
-            if (!good) return;
-            notes_.add_cell(cell_, middle);
-            add(i, j, cells);
+            if (edges == 0) {
+                if (notes_.faces != nullptr) notes_.faces->add_empty();
+            } else {
+                good = read_edges(i, j, corner, cells);
+            }
         });
         return good;
     }
@@ -73,22 +65,36 @@ class RowReader {
             out_.results[(j - 1) * std::size_t{out_.width} + i - 1] = result;
     }
 
-    void add(std::uint32_t i, std::uint32_t j, std::vector<SilmapCellData>& cells) {
-        reader_.read(cell_, drawing_);
-        if (drawing_.chords.empty()) return;
-        SilmapCellData c;
-        c.i = i, c.j = j;
+    bool read_edges(std::uint32_t i, std::uint32_t j, const Windings& corner, ReadRow& cells) {
+        LoneEdge lone;
+        if (mapper_.analyse_lone(i, j, corner, lone)) {
+            notes_.parts->add(map_, lone);
+            reader_.read(lone, drawing_);
+        } else {
+            if (!mapper_.analyse(i, j, corner, cell_)) return false;
+            if (notes_.parts != nullptr)
+                notes_.parts->add(map_, cell_);
+            else
+                notes_.faces->add(cell_);
+            reader_.read(cell_, drawing_);
+        }
+        if (!drawing_.chords.empty()) add(i, j, cells);
+        return true;
+    }
+
+    void add(std::uint32_t i, std::uint32_t j, ReadRow& cells) {
+        ReadCell c;
+        c.i = i;
         TruthSlabs& truth = out_.truth[j];
         c.first_slab = static_cast<std::uint32_t>(truth.slabs.size());
-        slabs_.add(drawing_, out_.box(c), truth);
+        slabs_.add(drawing_, out_.box(i, j), truth);
         c.slabs = static_cast<std::uint32_t>(truth.slabs.size()) - c.first_slab;
         c.corners = static_cast<std::uint32_t>(drawing_.corners.size());
         for (std::uint32_t link = 0; link < 4; ++link) {
             const std::vector<double>& crossings = drawing_.crossings[link];
             c.edges_across |= static_cast<std::uint32_t>(std::min<std::size_t>(crossings.size(), 255)) << 8 * link;
         }
-        const CellSteps seed = seed_of(drawing_, format_);
-        place(c, seed.x, seed.y, format_);
+        c.seed = seed_of(drawing_, format_);
         cells.push_back(c);
     }
 
@@ -116,33 +122,65 @@ bool one_result(const SilmapCells& cells, std::uint32_t i, std::uint32_t j) {
     return first == cells.corner(i, j, 1) && first == cells.corner(i, j, 2) && first == cells.corner(i, j, 3);
 }
 
-/// Cells without edges whose corners differ, an edge running along a side; near: and those next to cells with edges.
-std::vector<SilmapCellData> with_plain(const SilmapCells& cells, std::uint32_t j,
-                                       const std::vector<std::vector<SilmapCellData>>& edged, bool near,
-                                       fetex::SilmapCellFormat format, TruthSlabs& truth) {
+/// Columns of a row's cells: of those with edges, and of those without whose corners differ, an edge running along a
+/// side; near: and of those next to cells with edges.
+std::vector<std::uint32_t> columns_of(const SilmapCells& cells, std::uint32_t j, const std::vector<ReadRow>& edged,
+                                      bool near) {
     std::vector<bool> wanted(std::size_t{cells.width} + 1, false);
     for (std::uint32_t row = j > 0 ? j - 1 : 0; near && row <= std::min(j + 1, cells.height); ++row) {
-        for (const SilmapCellData& c : edged[row]) {
+        for (const ReadCell& c : edged[row]) {
             for (std::uint32_t i = c.i > 0 ? c.i - 1 : 0; i <= std::min(c.i + 1, cells.width); ++i)
                 wanted[i] = true;
         }
     }
-    std::vector<SilmapCellData> out;
-    auto next = edged[j].begin();
+    for (const ReadCell& c : edged[j])
+        wanted[c.i] = true;
+    std::vector<std::uint32_t> out;
     for (std::uint32_t i = 0; i <= cells.width; ++i) {
-        if (next != edged[j].end() && next->i == i) {
-            out.push_back(*next++);
-            continue;
-        }
-        if (!wanted[i] && one_result(cells, i, j)) continue;
-        SilmapCellData c;
-        c.i = i, c.j = j, c.plain = true;
-        place(c, fetex::silmap_step(format, 0.5), fetex::silmap_step(format, 0.5), format);
-        c.first_slab = static_cast<std::uint32_t>(truth.slabs.size()), c.slabs = 1;
-        TruthBuilder::add_plain(cells.inside(i, j), cells.box(c), truth);
-        out.push_back(c);
+        if (wanted[i] || !one_result(cells, i, j)) out.push_back(i);
     }
     return out;
+}
+
+/// The cells of a row, in their places.
+void write_row(SilmapCells& cells, std::uint32_t j, const std::vector<std::uint32_t>& columns, const ReadRow& edged,
+               fetex::SilmapCellFormat format) {
+    TruthSlabs& truth = cells.truth[j];
+    auto next = edged.begin();
+    SilmapCellData* out = cells.cells.data() + cells.row_start[j];
+    for (const std::uint32_t i : columns) {
+        SilmapCellData& c = *out++;
+        c = {};
+        c.i = i, c.j = j;
+        if (next != edged.end() && next->i == i) {
+            place(c, next->seed, format);
+            c.first_slab = next->first_slab, c.slabs = next->slabs;
+            c.edges_across = next->edges_across, c.corners = next->corners;
+            ++next;
+        } else {
+            c.plain = true;
+            const std::uint32_t middle = fetex::silmap_step(format, 0.5);
+            place(c, {middle, middle}, format);
+            c.first_slab = static_cast<std::uint32_t>(truth.slabs.size()), c.slabs = 1;
+            TruthBuilder::add_plain(cells.inside(i, j), cells.box(i, j), truth);
+        }
+    }
+}
+
+void write_cells(SilmapCells& cells, const std::vector<ReadRow>& edged, bool near, fetex::SilmapCellFormat format,
+                 unsigned threads) {
+    std::vector<std::vector<std::uint32_t>> columns(edged.size());
+    parallel_for(edged.size(), threads,
+                 [&](std::size_t j) { columns[j] = columns_of(cells, static_cast<std::uint32_t>(j), edged, near); });
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& row : columns) {
+        cells.row_start.push_back(static_cast<std::uint32_t>(count));
+        count += row.size();
+    }
+    cells.row_start.push_back(static_cast<std::uint32_t>(count));
+    cells.cells.resize(count);
+    parallel_for(edged.size(), threads,
+                 [&](std::size_t j) { write_row(cells, static_cast<std::uint32_t>(j), columns[j], edged[j], format); });
 }
 
 /// notes(j): of a row.
@@ -156,7 +194,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     const std::size_t rows = std::size_t{out.height} + 1;
     out.truth.resize(rows);
     out.left.resize(rows), out.top.resize(std::size_t{out.width} + 1);
-    std::vector<std::vector<SilmapCellData>> edged(rows);
+    std::vector<ReadRow> edged(rows);
     std::vector<PlanarStats> row_stats(rows);
     std::vector<char> good(rows);
     parallel_for(rows, threads, [&](std::size_t j) {
@@ -167,15 +205,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     if (std::ranges::find(good, 0) != good.end()) return std::nullopt;
     for (const PlanarStats& s : row_stats)
         add(stats, s);
-    std::vector<std::vector<SilmapCellData>> all(rows);
-    parallel_for(rows, threads, [&](std::size_t j) {
-        all[j] = with_plain(out, static_cast<std::uint32_t>(j), edged, near, format, out.truth[j]);
-    });
-    for (const std::vector<SilmapCellData>& row : all) {
-        out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
-        out.cells.insert(out.cells.end(), row.begin(), row.end());
-    }
-    out.row_start.push_back(static_cast<std::uint32_t>(out.cells.size()));
+    write_cells(out, edged, near, format, threads);
     return out;
 }
 
@@ -193,9 +223,7 @@ std::uint64_t cells_with_edges(const PlanarMap& map) {
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
                                     fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
                                     const SkipRules& skip, PlanarStats& stats) {
-    std::vector<PartsRow> parts;
-    for (std::uint32_t j = 0; j < map.grid().height; ++j)
-        parts.emplace_back(map, j);
+    std::vector<PartsRow> parts(map.grid().height);
     const auto notes = [&](std::size_t j) { return RowNotes{&parts[j], nullptr}; };
     auto cells = read_all(map, scene, compositor, format, chord, near, threads, skip, notes, stats);
     if (!cells) return std::nullopt;

@@ -59,10 +59,6 @@ ResultId SilmapCells::inside(std::uint32_t i, std::uint32_t j) const {
     return i == 0 ? left[j] : j == 0 ? top[i] : results[std::size_t{j - 1} * width + i - 1];
 }
 
-fetex::SilmapBox SilmapCells::box(const SilmapCellData& c) const {
-    return {c.i == 0 ? 0.5 : 0, c.j == 0 ? 0.5 : 0, c.i == width ? 0.5 : 1, c.j == height ? 0.5 : 1};
-}
-
 SilmapPoint point_across(const SilmapCells& cells, const SilmapCellData& c, const SilmapPoint& point,
                          std::uint32_t link) {
     const std::uint32_t neighbour = c.neighbours[link];

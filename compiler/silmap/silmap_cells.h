@@ -39,11 +39,11 @@ struct SilmapCellData {
 };
 
 struct SilmapCells {
-    std::uint32_t width = 0, height = 0; ///< texels
-    bool of_features = false;            ///< results are those of faces, a cell's own; none of texels
-    std::vector<ResultId> results;       ///< width·height: in the middles of texels
-    std::vector<ResultId> left, top;     ///< height + 1 and width + 1: in the corner of the border cells
-    std::vector<SilmapCellData> cells;   ///< with edges or boundaries, row by row
+    std::uint32_t width = 0, height = 0;   ///< texels
+    bool of_features = false;              ///< results are those of faces, a cell's own; none of texels
+    std::vector<ResultId> results;         ///< width·height: in the middles of texels
+    std::vector<ResultId> left, top;       ///< height + 1 and width + 1: in the corner of the border cells
+    UnwrittenVector<SilmapCellData> cells; ///< with edges or boundaries, row by row
     std::vector<std::uint32_t> row_start;
     std::vector<TruthSlabs> truth; ///< by row
 
@@ -51,11 +51,14 @@ struct SilmapCells {
     [[nodiscard]] ResultId corner(std::uint32_t i, std::uint32_t j, std::uint32_t corner) const;
     /// Of a cell without edges.
     [[nodiscard]] ResultId inside(std::uint32_t i, std::uint32_t j) const;
-    [[nodiscard]] fetex::SilmapBox box(const SilmapCellData& c) const;
+    /// The part of a cell inside the canvas.
+    [[nodiscard]] fetex::SilmapBox box(std::uint32_t i, std::uint32_t j) const {
+        return {i == 0 ? 0.5 : 0, j == 0 ? 0.5 : 0, i == width ? 0.5 : 1, j == height ? 0.5 : 1};
+    }
     /// Null: it shows and holds one result.
     [[nodiscard]] const SilmapCellData* find(std::uint32_t i, std::uint32_t j) const;
     [[nodiscard]] CellTruth truth_of(const SilmapCellData& c) const {
-        return {truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c)};
+        return {truth[c.j], std::span(truth[c.j].slabs).subspan(c.first_slab, c.slabs), box(c.i, c.j)};
     }
     /// Of what it shows: areas right by link, and the area that is wrong.
     void measure(SilmapCellData& c) const;
