@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace fetexc::cli {
 namespace {
@@ -48,13 +47,11 @@ bool crosses(const PixelBox& box, PixelPosition a, PixelPosition b) {
     return false;
 }
 
-double cost_of(const Place& place, const std::vector<NamedLine>& lines, const std::vector<PlacedLabel>& placed,
-               const PixelBox& room) {
+/// Without the other labels.
+double cost_of(const Place& place, const std::vector<NamedLine>& lines, const PixelBox& room) {
     const PixelBox& box = place.label.box;
     double cost = place.preference;
     if (box.x0 < room.x0 || box.x1 > room.x1 || box.y0 < room.y0 || box.y1 > room.y1) cost += kOutside;
-    for (const PlacedLabel& other : placed)
-        cost += box.overlaps(other.box) ? kOnLabel : 0;
     for (const NamedLine& line : lines) {
         for (std::size_t k = 0; k < line.points.size(); ++k) {
             const PixelPosition p = line.points[k];
@@ -65,6 +62,82 @@ double cost_of(const Place& place, const std::vector<NamedLine>& lines, const st
     return cost;
 }
 
+/// A label's places, and the one it has.
+struct Choice {
+    std::vector<Place> places; ///< preference: all of cost_of
+    std::size_t chosen = 0;
+
+    [[nodiscard]] const PlacedLabel& label() const { return places[chosen].label; }
+};
+
+class LabelLayout {
+  public:
+    LabelLayout(const std::vector<NamedLine>& lines, const PixelBox& room, double font_size) {
+        for (const NamedLine& line : lines) {
+            const double width = text_width(line.name, font_size);
+            Choice c;
+            if (line.points.empty())
+                c.places.emplace_back();
+            else
+                add_places(line.points.back(), width, font_size, 0, c.places);
+            if (line.points.size() > 1) add_places(line.points.front(), width, font_size, kOtherEnd, c.places);
+            for (Place& p : c.places)
+                p.preference = cost_of(p, lines, room);
+            const auto best = std::ranges::min_element(c.places, {}, &Place::preference);
+            c.chosen = static_cast<std::size_t>(best - c.places.begin());
+            choices_.push_back(std::move(c));
+        }
+    }
+
+    /// Two labels at a time are moved to the places that are best for both, until none gets better.
+    std::vector<PlacedLabel> run() {
+        for (bool better = true; better;) {
+            better = false;
+            for (std::size_t a = 0; a < choices_.size(); ++a) {
+                for (std::size_t b = 0; b < choices_.size(); ++b)
+                    better = (a != b && move(choices_[a], choices_[b])) || better;
+            }
+        }
+        std::vector<PlacedLabel> out;
+        for (const Choice& c : choices_)
+            out.push_back(c.label());
+        return out;
+    }
+
+  private:
+    static double on_each_other(const PlacedLabel& a, const PlacedLabel& b) {
+        return a.box.overlaps(b.box) ? kOnLabel : 0;
+    }
+    /// Of a label there, with all but two others.
+    [[nodiscard]] double cost(const Place& place, const Choice& a, const Choice& b) const {
+        double cost = place.preference;
+        for (const Choice& c : choices_)
+            cost += &c != &a && &c != &b ? on_each_other(place.label, c.label()) : 0;
+        return cost;
+    }
+    bool move(Choice& a, Choice& b) const {
+        constexpr double worth = 1e-9; // above roundings of sums
+        std::vector<double> cost_a, cost_b;
+        for (const Place& p : a.places)
+            cost_a.push_back(cost(p, a, b));
+        for (const Place& p : b.places)
+            cost_b.push_back(cost(p, a, b));
+        const auto both = [&](std::size_t i, std::size_t k) {
+            return cost_a[i] + cost_b[k] + on_each_other(a.places[i].label, b.places[k].label);
+        };
+        double best = both(a.chosen, b.chosen);
+        bool moved = false;
+        for (std::size_t i = 0; i < a.places.size(); ++i) {
+            for (std::size_t k = 0; k < b.places.size(); ++k) {
+                if (both(i, k) < best - worth) best = both(i, k), a.chosen = i, b.chosen = k, moved = true;
+            }
+        }
+        return moved;
+    }
+
+    std::vector<Choice> choices_;
+};
+
 } // namespace
 
 double text_width(const std::string& text, double font_size) {
@@ -72,25 +145,7 @@ double text_width(const std::string& text, double font_size) {
 }
 
 std::vector<PlacedLabel> place_labels(const std::vector<NamedLine>& lines, const PixelBox& room, double font_size) {
-    std::vector<PlacedLabel> placed;
-    for (const NamedLine& line : lines) {
-        const double width = text_width(line.name, font_size);
-        std::vector<Place> places;
-        if (line.points.empty()) {
-            placed.emplace_back();
-            continue;
-        }
-        add_places(line.points.back(), width, font_size, 0, places);
-        if (line.points.size() > 1) add_places(line.points.front(), width, font_size, kOtherEnd, places);
-        double best = std::numeric_limits<double>::infinity();
-        PlacedLabel chosen;
-        for (const Place& place : places) {
-            const double cost = cost_of(place, lines, placed, room);
-            if (cost < best) best = cost, chosen = place.label;
-        }
-        placed.push_back(chosen);
-    }
-    return placed;
+    return LabelLayout(lines, room, font_size).run();
 }
 
 } // namespace fetexc::cli

@@ -29,8 +29,9 @@ struct PlacedLabel {
     PixelBox box;
 };
 
-/// One label for each line, inside `room`. Of a few places around both ends of a line, the one that covers least: other
-/// labels count most, then points, then lines. The last end is preferred, and its right.
+/// One label for each line, inside `room`. Of a few places around both ends of each line, those that cover least, no
+/// two labels having better ones: other labels count most, then points, then lines. The last end is preferred, and its
+/// right. A line without points has an empty label.
 std::vector<PlacedLabel> place_labels(const std::vector<NamedLine>& lines, const PixelBox& room, double font_size);
 
 /// Width of a text in a common sans-serif face; a guess that errs on the wide side.

@@ -87,6 +87,18 @@ TEST(Labels, dontCoverEachOther) {
     }
 }
 
+/// Two lines end close to each other below a third: their labels leave room for its.
+TEST(Labels, standBesideTheirOwnEnds) {
+    const std::vector<NamedLine> lines{{"the lowest", {{383, 290}, {500, 326}}},
+                                       {"one of a long name", {{383, 291}, {500, 328}}},
+                                       {"the one above, with a name", {{382, 252}, {500, 298}}},
+                                       {"the highest", {{383, 244}, {500, 281}}}};
+    for (const PlacedLabel& label : place_labels(lines, {80, 50, 718, 384}, 12)) {
+        EXPECT_FALSE(label.right_aligned);
+        EXPECT_GT(label.box.x0, 500);
+    }
+}
+
 TEST(Labels, stayInTheRoomAtItsRightEdge) {
     const std::vector<PlacedLabel> placed = place_labels({{"name", {{10, 50}, {398, 50}}}}, {0, 0, 400, 100}, 12);
     EXPECT_LE(placed[0].box.x1, 400);
