@@ -11,9 +11,6 @@
 namespace fetex {
 namespace {
 
-/// Bits of a coordinate.
-unsigned step_bits(SilmapCellFormat format) { return format == SilmapCellFormat::Bits8 ? 3 : 7; }
-
 SilmapCell cell_at(const SilmapTexture& t, std::int64_t i, std::int64_t j) {
     const auto column = static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, t.width)),
                row = static_cast<std::size_t>(std::clamp<std::int64_t>(j, 0, t.height));
@@ -49,24 +46,14 @@ double area_left_of(const SilmapPoint& from, const SilmapPoint& to, const Silmap
 
 } // namespace
 
-std::uint32_t silmap_steps(SilmapCellFormat format) { return 1u << step_bits(format); }
-
-double silmap_position(SilmapCellFormat format, std::uint32_t step) { return (step + 0.5) / silmap_steps(format); }
-
-std::uint32_t silmap_step(SilmapCellFormat format, double position) {
-    const std::uint32_t steps = silmap_steps(format);
-    if (!(position > 0)) return 0;
-    return position < 1 ? static_cast<std::uint32_t>(position * steps) : steps - 1;
-}
-
 std::uint16_t silmap_pack_cell(SilmapCellFormat format, const SilmapCell& cell) {
-    const unsigned bits = step_bits(format);
+    const unsigned bits = silmap_step_bits(format);
     return static_cast<std::uint16_t>(cell.x | cell.y << bits | std::uint32_t{cell.east} << (2 * bits) |
                                       std::uint32_t{cell.south} << (2 * bits + 1));
 }
 
 SilmapCell silmap_unpack_cell(SilmapCellFormat format, std::uint16_t packed) {
-    const unsigned bits = step_bits(format);
+    const unsigned bits = silmap_step_bits(format);
     const std::uint32_t mask = silmap_steps(format) - 1;
     return {packed & mask, packed >> bits & mask, (packed >> (2 * bits) & 1) != 0, (packed >> (2 * bits + 1) & 1) != 0};
 }

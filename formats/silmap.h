@@ -50,12 +50,20 @@ struct SilmapCell {
     friend bool operator==(const SilmapCell&, const SilmapCell&) = default;
 };
 
+/// Of a coordinate.
+inline unsigned silmap_step_bits(SilmapCellFormat format) { return format == SilmapCellFormat::Bits8 ? 3 : 7; }
 /// Steps across a cell, 8 or 128.
-std::uint32_t silmap_steps(SilmapCellFormat format);
+inline std::uint32_t silmap_steps(SilmapCellFormat format) { return 1u << silmap_step_bits(format); }
 /// Where a step is in the cell, (step + 1/2) / steps; exact.
-double silmap_position(SilmapCellFormat format, std::uint32_t step);
+inline double silmap_position(SilmapCellFormat format, std::uint32_t step) {
+    return (step + 0.5) / silmap_steps(format);
+}
 /// The step nearest to a local coordinate, ties up; outside 0 … 1 the first or the last.
-std::uint32_t silmap_step(SilmapCellFormat format, double position);
+inline std::uint32_t silmap_step(SilmapCellFormat format, double position) {
+    const std::uint32_t steps = silmap_steps(format);
+    if (!(position > 0)) return 0;
+    return position < 1 ? static_cast<std::uint32_t>(position * steps) : steps - 1;
+}
 /// Precondition: x and y below silmap_steps.
 std::uint16_t silmap_pack_cell(SilmapCellFormat format, const SilmapCell& cell);
 SilmapCell silmap_unpack_cell(SilmapCellFormat format, std::uint16_t packed);

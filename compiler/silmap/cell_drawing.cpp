@@ -38,8 +38,7 @@ struct CellReader::Polygon {
     [[nodiscard]] int chords(double tolerance) const {
         double bend = 0;
         for (int k = 0; k + 2 <= degree; ++k) {
-            bend =
-                std::max(bend, std::hypot(p[k].x - 2 * p[k + 1].x + p[k + 2].x, p[k].y - 2 * p[k + 1].y + p[k + 2].y));
+            bend = std::max(bend, length(p[k].x - 2 * p[k + 1].x + p[k + 2].x, p[k].y - 2 * p[k + 1].y + p[k + 2].y));
         }
         return std::max(1, static_cast<int>(std::ceil(std::sqrt(bend * degree * (degree - 1) / 8 / tolerance))));
     }

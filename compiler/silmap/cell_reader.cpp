@@ -2,6 +2,8 @@
 #include "compiler/silmap/cell_reader.h"
 
 #include <algorithm>
+#include <atomic>
+#include <utility>
 
 #include "compiler/silmap/point_seed.h"
 
@@ -30,14 +32,13 @@ using ReadRow = std::vector<ReadCell>;
 class RowReader {
   public:
     RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
-              double chord, const SkipRules& skip, const RowNotes& notes, SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), format_(format), notes_(notes),
-          out_(out) {
-        if (notes_.faces != nullptr) mapper_.tell_faces_apart();
-    }
+              double chord, const SkipRules& skip, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), format_(format), out_(out) {}
 
     /// False: the map contradicts itself.
-    bool read(std::uint32_t j, ReadRow& cells) {
+    bool read(std::uint32_t j, const RowNotes& notes, ReadRow& cells) {
+        notes_ = notes;
+        if (notes_.faces != nullptr) mapper_.tell_faces_apart();
         bool good = true;
         map_.along_row(j, [&](std::uint32_t i, const Windings& corner) {
             if (i > out_.width || !good) return;
@@ -117,27 +118,36 @@ void add(PlanarStats& a, const PlanarStats& b) {
     a.trapezoids += b.trapezoids, a.regions += b.regions;
 }
 
-bool one_result(const SilmapCells& cells, std::uint32_t i, std::uint32_t j) {
-    const ResultId first = cells.corner(i, j, 0);
-    return first == cells.corner(i, j, 1) && first == cells.corner(i, j, 2) && first == cells.corner(i, j, 3);
+/// Sets what cells of a row have corners of different results.
+void want_parted(const SilmapCells& cells, std::uint32_t j, std::vector<std::uint8_t>& wanted) {
+    const ResultId *above = cells.results.data() + std::size_t{j > 0 ? j - 1 : 0} * cells.width,
+                   *below = cells.results.data() + std::size_t{std::min(j, cells.height - 1)} * cells.width;
+    bool parted = above[0] != below[0]; // the texels left of the cell
+    wanted[0] |= parted ? 1 : 0;
+    for (std::uint32_t i = 1; i < cells.width; ++i) {
+        const bool left = std::exchange(parted, above[i] != below[i]);
+        wanted[i] |= left || parted || above[i - 1] != above[i] ? 1 : 0;
+    }
+    wanted[cells.width] |= parted ? 1 : 0;
 }
 
 /// Columns of a row's cells: of those with edges, and of those without whose corners differ, an edge running along a
 /// side; near: and of those next to cells with edges.
 std::vector<std::uint32_t> columns_of(const SilmapCells& cells, std::uint32_t j, const std::vector<ReadRow>& edged,
                                       bool near) {
-    std::vector<bool> wanted(std::size_t{cells.width} + 1, false);
+    std::vector<std::uint8_t> wanted(std::size_t{cells.width} + 1, 0);
     for (std::uint32_t row = j > 0 ? j - 1 : 0; near && row <= std::min(j + 1, cells.height); ++row) {
         for (const ReadCell& c : edged[row]) {
             for (std::uint32_t i = c.i > 0 ? c.i - 1 : 0; i <= std::min(c.i + 1, cells.width); ++i)
-                wanted[i] = true;
+                wanted[i] = 1;
         }
     }
     for (const ReadCell& c : edged[j])
-        wanted[c.i] = true;
+        wanted[c.i] = 1;
+    want_parted(cells, j, wanted);
     std::vector<std::uint32_t> out;
     for (std::uint32_t i = 0; i <= cells.width; ++i) {
-        if (wanted[i] || !one_result(cells, i, j)) out.push_back(i);
+        if (wanted[i] != 0) out.push_back(i);
     }
     return out;
 }
@@ -195,15 +205,18 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     out.truth.resize(rows);
     out.left.resize(rows), out.top.resize(std::size_t{out.width} + 1);
     std::vector<ReadRow> edged(rows);
-    std::vector<PlanarStats> row_stats(rows);
-    std::vector<char> good(rows);
-    parallel_for(rows, threads, [&](std::size_t j) {
-        RowReader reader(map, scene, compositor, format, chord, skip, notes(j), out);
-        good[j] = reader.read(static_cast<std::uint32_t>(j), edged[j]) ? 1 : 0;
-        row_stats[j] = reader.stats();
+    constexpr std::size_t chunk = 8; // rows that share a reader's memory
+    std::vector<PlanarStats> chunk_stats((rows + chunk - 1) / chunk);
+    std::atomic<bool> good = true;
+    parallel_for_chunks(rows, chunk, threads, [&](std::size_t first, std::size_t end) {
+        RowReader reader(map, scene, compositor, format, chord, skip, out);
+        for (std::size_t j = first; j < end; ++j) {
+            if (!reader.read(static_cast<std::uint32_t>(j), notes(j), edged[j])) good = false;
+        }
+        chunk_stats[first / chunk] = reader.stats();
     });
-    if (std::ranges::find(good, 0) != good.end()) return std::nullopt;
-    for (const PlanarStats& s : row_stats)
+    if (!good) return std::nullopt;
+    for (const PlanarStats& s : chunk_stats)
         add(stats, s);
     write_cells(out, edged, near, format, threads);
     return out;

@@ -76,8 +76,19 @@ double ShownCell::exit_of(const SilmapPoint& point, std::uint32_t link, const Si
 }
 
 double area_of(const CellTruth& truth, ResultId result) {
-    const SilmapPoint top{1, truth.box.y0}, bottom{1, truth.box.y1};
-    return integral(truth, top, bottom, result, kNone);
+    double sum = 0;
+    for (const TruthSlab& slab : truth.slabs) {
+        double width = 0, from = truth.box.x0;
+        ResultId is = slab.left;
+        for (const TruthLine& line : truth.all.lines_of(slab)) {
+            const double to = line.top + line.run / 2; // in the box
+            if (is == result) width += to - from;
+            from = to, is = line.right;
+        }
+        if (is == result) width += truth.box.x1 - from;
+        sum += (slab.y1 - slab.y0) * width;
+    }
+    return sum;
 }
 
 double link_area(const CellTruth& truth, const SilmapPoint& point, std::uint32_t link, double exit,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "compiler/error_budget.h"
+#include "compiler/silmap/part_area.h"
 
 namespace fetexc {
 namespace {
@@ -57,17 +58,14 @@ void PartsRow::add_side(TexelSide side, std::span<const LinePart> parts) {
 /// Regions: faces joined over edges that can't be seen.
 void PartsRow::add(const PlanarMap& map, const TexelMap& cell) {
     const SweepResult& s = cell.sweep;
+    if (std::ranges::all_of(s.portions, [&](const Portion& p) { return cell.left_result(p) == cell.right_result(p); }))
+        return;
     joined_.reset(s.faces.size());
-    bool visible = false;
     for (std::uint32_t f = 0; f < s.faces.size(); ++f)
         joined_.unite(f, s.face(f));
     for (const Portion& p : s.portions) {
-        if (cell.left_result(p) == cell.right_result(p))
-            joined_.unite(p.left, p.right);
-        else
-            visible = true;
+        if (cell.left_result(p) == cell.right_result(p)) joined_.unite(p.left, p.right);
     }
-    if (!visible) return;
     new_cell(cell.i);
     region_of_face_.resize(s.faces.size());
     for (std::uint32_t f = 0; f < s.faces.size(); ++f) { // a representative comes first
@@ -232,22 +230,33 @@ class PartsFinder {
     /// Regions of one result that face each other, where one of them isn't shown: to the right, and below.
     [[nodiscard]] Links links_of(std::uint32_t j) const {
         Links out;
-        for (const Cell& c : rows_[j].cells_) {
-            for (const TexelSide side : {TexelSide::Right, TexelSide::Bottom}) {
-                const Cell* next = neighbour(c.i, j, side);
-                if (next == nullptr || !(c.lost || next->lost)) continue;
-                const std::uint32_t below = side == TexelSide::Bottom ? j + 1 : j;
-                const PartsRow &a = rows_[j], &b = rows_[below];
-                facing(map_, across(side), a.parts_of(c, side),
-                       b.parts_of(*next, side == TexelSide::Right ? TexelSide::Left : TexelSide::Top),
-                       begin_of(side, c.i, j) + 2, out.undecided,
-                       [&](std::uint32_t p, std::uint32_t q, const LinePosition&, const LinePosition&) {
-                           if (a.regions_[p].result == b.regions_[q].result && (a.shown_[p] & b.shown_[q]) == 0)
-                               out.pairs.emplace_back(start_[j] + p, start_[below] + q);
-                       });
-            }
+        const std::vector<Cell>& row = rows_[j].cells_;
+        for (std::size_t k = 0; k + 1 < row.size(); ++k) {
+            if (row[k + 1].i == row[k].i + 1) link(TexelSide::Right, j, row[k], row[k + 1], out);
+        }
+        if (j == cells_.height) return out;
+        const std::vector<Cell>& next = rows_[j + 1].cells_;
+        for (auto a = row.begin(), b = next.begin(); a != row.end() && b != next.end();) {
+            if (a->i == b->i) link(TexelSide::Bottom, j, *a, *b, out);
+            const bool advance_b = b->i <= a->i;
+            if (a->i <= b->i) ++a;
+            if (advance_b) ++b;
         }
         return out;
+    }
+
+    /// Across that side of a cell in row j.
+    void link(TexelSide side, std::uint32_t j, const Cell& c, const Cell& next, Links& out) const {
+        if (!c.lost && !next.lost) return;
+        const std::uint32_t next_row = side == TexelSide::Bottom ? j + 1 : j;
+        const PartsRow &a = rows_[j], &b = rows_[next_row];
+        facing(map_, across(side), a.parts_of(c, side),
+               b.parts_of(next, side == TexelSide::Right ? TexelSide::Left : TexelSide::Top),
+               begin_of(side, c.i, j) + 2, out.undecided,
+               [&](std::uint32_t p, std::uint32_t q, const LinePosition&, const LinePosition&) {
+                   if (a.regions_[p].result == b.regions_[q].result && (a.shown_[p] & b.shown_[q]) == 0)
+                       out.pairs.emplace_back(start_[j] + p, start_[next_row] + q);
+               });
     }
 
     [[nodiscard]] LostParts measure(UnionFind& parts) const {
@@ -283,10 +292,14 @@ class PartsFinder {
         }
     }
 
-    /// Of all that has the result in the cell: parts that are near each other may be taken for larger than they are.
+    /// Of all that has the result in the cell and isn't shown there: parts in one cell are taken for one.
     [[nodiscard]] double area_in(std::uint32_t i, std::uint32_t j, ResultId result) const {
         const SilmapCellData* c = cells_.find(i, j);
-        return c != nullptr ? area_of(cells_.truth_of(*c), result) : 0;
+        if (c == nullptr) return 0;
+        std::uint32_t shown = 0; // corners
+        for (std::uint32_t corner = 0; corner < 4; ++corner)
+            shown |= texel_has(i, j, corner, result) ? 1u << corner : 0;
+        return area_apart_from(cells_.truth_of(*c), result, shown);
     }
 
     const PlanarMap& map_;

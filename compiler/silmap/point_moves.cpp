@@ -29,19 +29,24 @@ std::size_t octant(const SilmapPoint& g) {
     return 0;
 }
 
-/// Seen from the point outwards: the result on the right of a link, and on the left.
-std::pair<ResultId, ResultId> beside(std::uint32_t link, const std::array<ResultId, 4>& corners) {
+/// Seen from the point outwards: the corner on the right of a link, and that on the left.
+std::pair<std::uint32_t, std::uint32_t> beside(std::uint32_t link) {
     using namespace fetex;
     switch (link) {
     case kSilmapWest:
-        return {corners[kSilmapNW], corners[kSilmapSW]};
+        return {kSilmapNW, kSilmapSW};
     case kSilmapNorth:
-        return {corners[kSilmapNE], corners[kSilmapNW]};
+        return {kSilmapNE, kSilmapNW};
     case kSilmapEast:
-        return {corners[kSilmapSE], corners[kSilmapNE]};
+        return {kSilmapSE, kSilmapNE};
     default:
-        return {corners[kSilmapSW], corners[kSilmapSE]};
+        return {kSilmapSW, kSilmapSE};
     }
+}
+
+/// What the neighbour there calls a corner that both have.
+std::uint32_t corner_across(std::uint32_t corner, std::uint32_t link) {
+    return corner ^ (link == fetex::kSilmapWest || link == fetex::kSilmapEast ? 1u : 2u);
 }
 
 } // namespace
@@ -53,16 +58,20 @@ double PointMoves::wrong_around(std::uint32_t cell) const {
     return sum;
 }
 
+double PointMoves::area(const SilmapCellData& c, const SilmapPoint& point, std::uint32_t link, double exit) const {
+    return samples_.empty() ? link_area(cells_.truth_of(c), point, link, exit, c.shown.corners)
+                            : samples_of(c).link_area(point, link, exit, c.shown.corners);
+}
+
 /// What the point at another place takes away; something not above `bar` if it isn't worth knowing.
 void PointMoves::evaluate(const SilmapCellData& c, double bar, Trial& t) const {
     t.gain = 0;
-    const CellTruth truth = cells_.truth_of(c);
     double most = 0; // that the neighbours may win
     for (std::uint32_t link = 0; link < 4; ++link) {
         const std::uint32_t neighbour = c.neighbours[link];
         if (neighbour == kNone) continue;
         t.exit[link] = ShownCell::exit_of(t.point, link, point_across(cells_, c, t.point, link));
-        t.right[link] = link_area(truth, t.point, link, t.exit[link], c.shown.corners);
+        t.right[link] = area(c, t.point, link, t.exit[link]);
         t.gain += t.right[link] - c.right[link];
         if (neighbour != kOwnPoint) most += cells_.cells[neighbour].wrong;
     }
@@ -73,8 +82,7 @@ void PointMoves::evaluate(const SilmapCellData& c, double bar, Trial& t) const {
         const std::uint32_t back = opposite(link);
         const SilmapPoint across{t.point.x - kToNeighbour[link].x, t.point.y - kToNeighbour[link].y};
         t.neighbour_exit[link] = ShownCell::exit_of(n.shown.point, back, across);
-        t.neighbour_right[link] =
-            link_area(cells_.truth_of(n), n.shown.point, back, t.neighbour_exit[link], n.shown.corners);
+        t.neighbour_right[link] = area(n, n.shown.point, back, t.neighbour_exit[link]);
         t.gain += t.neighbour_right[link] - n.right[back], most -= n.wrong;
     }
 }
@@ -109,28 +117,58 @@ void PointMoves::accept(SilmapCellData& c, const Trial& t) {
 /// Of what is won by the point's place, up to a factor, from a few points along each link: the region that lies there
 /// should be on its own side of the link.
 SilmapPoint PointMoves::gradient(const SilmapCellData& c, const SilmapPoint& p) const {
-    constexpr std::array<double, 4> parts{0.125, 0.375, 0.625, 0.875}; // of the way to the other point
-    const CellTruth own = cells_.truth_of(c);
     SilmapPoint sum{0, 0};
     for (std::uint32_t link = 0; link < 4; ++link) {
-        const std::uint32_t neighbour = c.neighbours[link];
-        if (neighbour == kNone) continue;
-        const SilmapPoint across = point_across(cells_, c, p, link);
-        const double dx = across.x - p.x, dy = across.y - p.y;
-        const auto [right, left] = beside(link, c.shown.corners);
-        double balance = 0;
-        for (const double part : parts) {
-            const double x = p.x + part * dx, y = p.y + part * dy;
-            const bool inside = x >= 0 && x < 1 && y >= 0 && y < 1;
-            if (!inside && neighbour == kOwnPoint) continue;
-            const ResultId is = inside ? result_at(own, x, y)
-                                       : result_at(cells_.truth_of(cells_.cells[neighbour]), x - kToNeighbour[link].x,
-                                                   y - kToNeighbour[link].y);
-            balance += (1 - part) * (static_cast<int>(is == right) - static_cast<int>(is == left));
-        }
-        sum.x += balance * dy, sum.y -= balance * dx;
+        if (c.neighbours[link] == kNone) continue;
+        const SilmapPoint across = point_across(cells_, c, p, link), way{across.x - p.x, across.y - p.y};
+        const double balance = samples_.empty() ? balance_of(c, p, link, way) : sampled_balance_of(c, p, link, way);
+        sum.x += balance * way.y, sum.y -= balance * way.x;
     }
     return sum;
+}
+
+/// What lies along a link: more than 0 if more of what belongs on its right, the nearer to the point the more it
+/// counts.
+double PointMoves::balance_of(const SilmapCellData& c, const SilmapPoint& p, std::uint32_t link,
+                              const SilmapPoint& way) const {
+    constexpr std::array<double, 4> parts{0.125, 0.375, 0.625, 0.875}; // of the way to the other point
+    const std::uint32_t neighbour = c.neighbours[link];
+    const ResultId right = c.shown.corners[beside(link).first], left = c.shown.corners[beside(link).second];
+    double balance = 0;
+    for (const double part : parts) {
+        const double x = p.x + part * way.x, y = p.y + part * way.y;
+        const bool inside = x >= 0 && x < 1 && y >= 0 && y < 1;
+        if (!inside && neighbour == kOwnPoint) continue;
+        const ResultId is = inside ? result_at(cells_.truth_of(c), x, y)
+                                   : result_at(cells_.truth_of(cells_.cells[neighbour]), x - kToNeighbour[link].x,
+                                               y - kToNeighbour[link].y);
+        balance += (1 - part) * (static_cast<int>(is == right) - static_cast<int>(is == left));
+    }
+    return balance;
+}
+
+double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint& p, std::uint32_t link,
+                                      const SilmapPoint& way) const {
+    constexpr std::uint32_t parts = 6;
+    const auto [right, left] = beside(link);
+    const CellSamples& own = samples_of(c);
+    const std::uint32_t neighbour = c.neighbours[link], columns = CellSamples::kColumns, lines = own.lines();
+    const std::array<CellSamples::Sides, 2> sides{
+        neighbour == kOwnPoint
+            ? CellSamples::nothing()
+            : samples_of(cells_.cells[neighbour]).sides(corner_across(right, link), corner_across(left, link)),
+        own.sides(right, left)};
+    // In places, a cell further right and down, so that nothing is below 0.
+    const double du = way.x * columns / parts, dv = way.y * lines / parts;
+    double u = (p.x + 1) * columns + du / 2, v = (p.y + 1) * lines + dv / 2;
+    int balance = 0; // halves of parts
+    for (std::uint32_t k = 0; k < parts; ++k, u += du, v += dv) {
+        const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
+        const auto inside =
+            static_cast<std::size_t>(i - columns < columns) & static_cast<std::size_t>(j - lines < lines);
+        balance += static_cast<int>(2 * (parts - k) - 1) * sides[inside](i, j, lines);
+    }
+    return static_cast<double>(balance) / (2 * parts);
 }
 
 double PointMoves::walk(std::uint32_t cell, std::int64_t stride) {
@@ -179,9 +217,11 @@ double PointMoves::settle_once(SilmapCellData& c, std::span<const std::int64_t> 
     return best.gain;
 }
 
+bool PointMoves::is_worth_settling(std::uint32_t cell) const { return wrong_around(cell) >= budget::kSilmapSettle; }
+
 double PointMoves::settle(std::uint32_t cell, std::span<const std::int64_t> strides) {
     constexpr int most = 3;
-    if (wrong_around(cell) < budget::kSilmapSettle) return 0;
+    if (!is_worth_settling(cell)) return 0;
     double won = 0, last = budget::kSilmapSettleAgain;
     for (int k = 0; k < most && last >= budget::kSilmapSettleAgain; ++k)
         won += last = settle_once(cells_.cells[cell], strides);

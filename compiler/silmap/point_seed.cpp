@@ -45,24 +45,35 @@ class StepScan {
     [[nodiscard]] std::optional<CellSteps> best() const { return best_; }
 
   private:
-    /// Along x or y from (u, v) on.
+    /// Along x or y from (u, v) on: outwards from the middle, no farther than a step exactly on the edge could win. Of
+    /// equal ones the first wins.
     template <bool level> void scan(double u, double v, double du, double dv) {
         if (du == 0) return;
         const double from = std::min(u, u + du), to = std::max(u, u + du), slope = dv / du,
-                     across = 1 / std::sqrt(1 + slope * slope);
-        const std::uint32_t end = fetex::silmap_step(format_, to);
-        for (std::uint32_t k = fetex::silmap_step(format_, from); k <= end; ++k) {
-            const double at = fetex::silmap_position(format_, k);
-            if (at < from || at > to) continue;
+                     across = 1 / std::sqrt(1 + slope * slope), middle = level ? middle_.x : middle_.y,
+                     beside = level ? middle_.y : middle_.x;
+        const std::uint32_t first = fetex::silmap_step(format_, from), end = fetex::silmap_step(format_, to),
+                            start = std::clamp(fetex::silmap_step(format_, middle), first, end);
+        double least = least_;
+        std::optional<CellSteps> best;
+        const auto look = [&](std::uint32_t k, bool ties) {
+            const double at = fetex::silmap_position(format_, k), along_u = at - middle;
+            const double far = weight_ * (along_u * along_u);
+            if (far > least) return false;
+            if (at < from || at > to) return true;
             const double edge = v + (at - u) * slope;
             const std::uint32_t n = fetex::silmap_step(format_, edge);
-            const double place = fetex::silmap_position(format_, n);
-            const double along_u = at - (level ? middle_.x : middle_.y),
-                         along_v = place - (level ? middle_.y : middle_.x);
+            const double place = fetex::silmap_position(format_, n), along_v = place - beside;
             const double cost = std::abs(place - edge) * across + weight_ * (along_u * along_u + along_v * along_v);
-            if (cost >= least_) continue;
-            least_ = cost, best_ = level ? CellSteps{k, n} : CellSteps{n, k};
-        }
+            if (cost < least || (ties && best && cost == least))
+                least = cost, best = level ? CellSteps{k, n} : CellSteps{n, k};
+            return true;
+        };
+        for (std::uint32_t k = start; look(k, true) && k > first; --k)
+            ;
+        for (std::uint32_t k = start + 1; k <= end && look(k, false); ++k)
+            ;
+        if (best) least_ = least, best_ = best;
     }
 
     fetex::SilmapCellFormat format_;

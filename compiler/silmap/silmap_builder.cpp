@@ -10,6 +10,7 @@
 #include "compiler/parallel.h"
 #include "compiler/silmap/cell_fit.h"
 #include "compiler/silmap/cell_reader.h"
+#include "compiler/silmap/cell_samples.h"
 #include "compiler/silmap/lend.h"
 #include "compiler/silmap/misfits.h"
 #include "formats/fbt_samples.h"
@@ -93,10 +94,27 @@ Result<PlanarMap> map_of_cells(const Scene& scene, const SilmapOptions& options,
     return PlanarMap::build(scene, grid, options.threads, report.planar, options.skip);
 }
 
-void fit(SilmapCells& cells, const SilmapOptions& options, bool thorough, SilmapStats& stats) {
-    link_cells(cells, options.threads);
-    stats.wrong_area_seed = wrong_area_of(cells) / (static_cast<double>(cells.width) * cells.height);
-    const FitCounts counts = fit_points(cells, options.cell_format, thorough, options.threads);
+/// How points are fitted: Quick by exact areas, or by samples where cells are many.
+enum class Fit : std::uint8_t { Thorough, Quick, Sampled };
+
+Fit fit_of(const SilmapOptions& options, const PlanarMap& map) {
+    if (options.effort == SilmapEffort::Thorough) return Fit::Thorough;
+    if (cells_with_edges(map) > kSilmapThoroughCells) return Fit::Sampled;
+    return options.effort == SilmapEffort::Auto ? Fit::Thorough : Fit::Quick;
+}
+
+void fit(SilmapCells& cells, const SilmapOptions& options, Fit how, SilmapStats& stats) {
+    double seed = 0;
+    FitCounts counts;
+    if (how == Fit::Sampled) {
+        join_cells(cells, options.threads);
+        counts = fit_points_by_samples(cells, options.cell_format, options.threads, seed);
+    } else {
+        link_cells(cells, options.threads);
+        seed = wrong_area_of(cells);
+        counts = fit_points(cells, options.cell_format, how == Fit::Thorough, options.threads);
+    }
+    stats.wrong_area_seed = seed / (static_cast<double>(cells.width) * cells.height);
     stats.fit_rounds = counts.rounds, stats.positions_tried = counts.positions;
 }
 
@@ -124,14 +142,11 @@ void finish(const SilmapOptions& options, SilmapBuild& build) {
     build.stats.gpu_bytes = fetex::silmap_gpu_bytes(build.texture);
 }
 
-bool is_thorough(const SilmapOptions& options, const PlanarMap& map) {
-    return options.effort == SilmapEffort::Thorough ||
-           (options.effort == SilmapEffort::Auto && cells_with_edges(map) <= kSilmapThoroughCells);
-}
-
-/// What chords may miss edges by: as with cells of 8 bits where points are only settled.
-double chord_of(fetex::SilmapCellFormat format, bool thorough) {
-    return budget::kSilmapChord / fetex::silmap_steps(thorough ? format : fetex::SilmapCellFormat::Bits8);
+/// What chords may miss edges by, cells. Where points are only settled: as with cells of 8 bits; by samples: a quarter
+/// of the way from one to the next.
+double chord_of(fetex::SilmapCellFormat format, Fit how) {
+    if (how == Fit::Sampled) return 1.0 / (4 * CellSamples::kColumns);
+    return budget::kSilmapChord / fetex::silmap_steps(how == Fit::Thorough ? format : fetex::SilmapCellFormat::Bits8);
 }
 
 } // namespace
@@ -144,16 +159,17 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     const bool eight_bits = silmap_fbt_format(options.sample_format) == fetex::FbtSampleFormat::Rgba8;
     Compositor compositor(scene, options.skip, eight_bits ? ColorSteps::Rgba8 : ColorSteps::Rgba16);
     if (progress) progress("silmap", 0);
-    const bool thorough = is_thorough(options, map.value());
+    const Fit how = fit_of(options, map.value());
+    const bool lends = how == Fit::Thorough && options.lend;
     std::optional<ReadCells> drawing =
-        read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, thorough),
-                   thorough && options.lend, options.threads, options.skip, build.report.planar);
+        read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, how), lends,
+                   options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
     if (progress) progress("silmap", 0.5);
-    fit(cells, options, thorough, build.stats);
+    fit(cells, options, how, build.stats);
     std::vector<std::uint32_t> lent;
-    if (thorough && options.lend) lent = lend(cells, options, build.stats);
+    if (lends) lent = lend(cells, options, build.stats);
     const std::optional<LostParts> lost = lost_parts(map.value(), drawing->parts, cells, lent, options.threads);
     if (!lost) return inconsistent();
     write_cells(cells, *lost, options, build);
@@ -173,12 +189,12 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
     if (progress) progress("silmap", 0);
     const Result<PlanarMap> map = map_of_cells(picture.features, options, build.report);
     if (!map) return map.error();
-    const bool thorough = is_thorough(options, map.value());
+    const Fit fitting = fit_of(options, map.value());
     std::optional<SilmapCells> cells =
-        read_feature_cells(map.value(), picture.features, options.cell_format, chord_of(options.cell_format, thorough),
+        read_feature_cells(map.value(), picture.features, options.cell_format, chord_of(options.cell_format, fitting),
                            options.threads, options.skip, build.report.planar);
     if (!cells) return inconsistent();
-    fit(*cells, options, thorough, build.stats);
+    fit(*cells, options, fitting, build.stats);
     write_cells(*cells, {}, options, build);
     const std::size_t words = words_of(options);
     build.texture.colors.resize(words * cells->results.size());

@@ -14,8 +14,11 @@ std::array<std::uint32_t, 2> texels_beside(std::uint32_t cell, std::uint32_t tex
 }
 
 std::array<ResultId, 4> corners_of(const SilmapCells& cells, std::uint32_t i, std::uint32_t j) {
-    return {cells.corner(i, j, fetex::kSilmapNW), cells.corner(i, j, fetex::kSilmapNE),
-            cells.corner(i, j, fetex::kSilmapSW), cells.corner(i, j, fetex::kSilmapSE)};
+    const auto [left, right] = texels_beside(i, cells.width);
+    const auto [above, below] = texels_beside(j, cells.height);
+    const ResultId *top = cells.results.data() + std::size_t{above} * cells.width,
+                   *bottom = cells.results.data() + std::size_t{below} * cells.width;
+    return {top[left], top[right], bottom[left], bottom[right]};
 }
 
 /// Set of links between corners of different results.
@@ -90,19 +93,32 @@ void relink_cell(SilmapCells& cells, SilmapCellData& c) {
     cells.measure(c);
 }
 
-void link_cells(SilmapCells& cells, unsigned threads) {
+namespace {
+
+template <class Visit> void each_cell(SilmapCells& cells, unsigned threads, const Visit& visit) {
     constexpr std::size_t chunk = 256;
-    const auto each = [&](const auto& visit) {
-        parallel_for_chunks(cells.cells.size(), chunk, threads, [&](std::size_t first, std::size_t end) {
-            for (std::size_t k = first; k < end; ++k)
-                visit(cells.cells[k]);
-        });
-    };
-    each([&](SilmapCellData& c) { link(cells, c); });
-    each([&](SilmapCellData& c) {
+    parallel_for_chunks(cells.cells.size(), chunk, threads, [&](std::size_t first, std::size_t end) {
+        for (std::size_t k = first; k < end; ++k)
+            visit(cells.cells[k]);
+    });
+}
+
+} // namespace
+
+void join_cells(SilmapCells& cells, unsigned threads) {
+    each_cell(cells, threads, [&](SilmapCellData& c) { link(cells, c); });
+}
+
+void measure_cells(SilmapCells& cells, unsigned threads) {
+    each_cell(cells, threads, [&](SilmapCellData& c) {
         c.shown.exit = exits_of(cells, c, c.shown.point);
         cells.measure(c);
     });
+}
+
+void link_cells(SilmapCells& cells, unsigned threads) {
+    join_cells(cells, threads);
+    measure_cells(cells, threads);
 }
 
 } // namespace fetexc

@@ -19,23 +19,24 @@ inline constexpr std::uint32_t kOwnPoint = kNone - 1;
 /// From a cell to its neighbour, by link.
 inline constexpr std::array<fetex::SilmapPoint, 4> kToNeighbour{{{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
 
-struct SilmapCellData {
+/// What fits ask of neighbours, up to the point, is one line of a processor's cache.
+struct alignas(64) SilmapCellData {
     std::uint32_t i = 0, j = 0;
     std::uint32_t boundaries = 0; ///< set of links
     /// By link, where it is a boundary: index of the cell, or kOwnPoint.
     std::array<std::uint32_t, 4> neighbours{kNone, kNone, kNone, kNone};
+    std::uint32_t x = 0, y = 0; ///< the point in steps
+    double wrong = 0;           ///< of `shown`: of the cell's part in the canvas, square cells
     ShownCell shown;
-    std::uint32_t x = 0, y = 0;    ///< the point in steps
     std::array<double, 4> right{}; ///< of `shown`: link_area
-    double wrong = 0;              ///< of `shown`: of the cell's part in the canvas, square cells
     std::uint32_t first_slab = 0, slabs = 0;
     std::uint32_t edges_across = 0; ///< of each side, by link a byte: visible edges that end there, at most 255
     std::uint32_t corners = 0;      ///< of the drawing, inside
     bool plain = false;             ///< no edges inside
+    bool joined = false; ///< of features: faces that are one around a feature's end: what shows of which isn't wrong
     /// Of features alone: the cell's faces at its corners, and the set of links that are boundaries.
     std::array<ResultId, 4> faces{};
     std::uint32_t apart = 0;
-    bool joined = false; ///< of features: faces that are one around a feature's end: what shows of which isn't wrong
 };
 
 struct SilmapCells {
@@ -64,7 +65,11 @@ struct SilmapCells {
     void measure(SilmapCellData& c) const;
 };
 
-/// Corners' results, boundaries, neighbours and wrong areas from the results of texels. Points stay.
+/// Corners' results, boundaries and neighbours from the results of texels. Points stay.
+void join_cells(SilmapCells& cells, unsigned threads);
+/// Exits, and wrong areas.
+void measure_cells(SilmapCells& cells, unsigned threads);
+/// Both.
 void link_cells(SilmapCells& cells, unsigned threads);
 
 /// The same of one cell, after a texel at a corner of it has got another result.

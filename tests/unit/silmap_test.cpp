@@ -134,6 +134,22 @@ TEST(Silmap, namesWhatItCannotHold) {
     EXPECT_FALSE(warns(fine, diag::kSilmapPartsLost));
 }
 
+/// A lost part counts by its own area, not by what else of its colour its cell has.
+TEST(Silmap, specksBesideTheirColourAreSpecks) {
+    const auto lost = [&](std::int64_t side) {
+        SilmapOptions options;
+        options.size = {16, 16}, options.lend = false;
+        const Scene scene = scene_of({box(0, 0, 180, 512), box(190, 250, 190 + side, 250 + side)});
+        return compile_silmap(scene, options).value();
+    };
+    EXPECT_EQ(lost(4).stats.parts_lost, 0u); // 1/64 square texel
+    const SilmapBuild larger = lost(9);
+    EXPECT_EQ(larger.stats.parts_lost, 1u);
+    const auto found = std::ranges::find(larger.report.diagnostics, diag::kSilmapPartsLost, &Diagnostic::code);
+    ASSERT_NE(found, larger.report.diagnostics.end());
+    EXPECT_NE(found->message.find("the largest: 0.079 square texels"), std::string::npos) << found->message;
+}
+
 /// Half a texel wide, slightly slanted: half of the middles miss it.
 TEST(Silmap, thinLinesStayTogether) {
     const Scene scene = scene_of({closed({{{0, 96}, {512, 192}}, {{512, 192}, {512, 208}}, {{512, 208}, {0, 112}}})});
