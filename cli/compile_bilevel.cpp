@@ -36,7 +36,7 @@ Result<AboveImage> load_above_image(const std::string& path, std::vector<Diagnos
     if (path.empty()) return out;
     const auto bytes = read_input(path, kMaxImageBytes);
     if (!bytes) return bytes.error();
-    const auto image = read_image(path, false, diagnostics);
+    const auto image = read_image(path, {}, diagnostics);
     if (!image) return at(path, image.error());
     out.hash = hash_of(bytes.value());
     out.width = image.value().width, out.height = image.value().height;

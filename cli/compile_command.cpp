@@ -133,6 +133,7 @@ std::string options_text(const Compiled& compiled, const CompileCommandOptions& 
     if (compiled.fbt) text += fmt::format(" size={}x{}", compiled.fbt->texture.width, compiled.fbt->texture.height);
     if ((compiled.fbt || compiled.silmap) && (!compiled.features_hash.empty() || options.image.trace))
         text += fmt::format(" invalidate={}", options.image.invalidate);
+    if (options.image.values.data) text += " data";
     if (options.mips) text += " mips";
     if (options.samples != "8") text += " samples=" + options.samples;
     if (options.image.trace)
@@ -210,7 +211,7 @@ Result<Compiled> load_and_compile_image(const Job& job, const CompileCommandOpti
                                         std::vector<Diagnostic>& diagnostics) {
     ProgressLine progress(job.input, options.quiet);
     ImageOptions image = options.image;
-    image.bright = sample_format(options) == fetex::FbtSampleFormat::Rgba16F;
+    image.values.bright = sample_format(options) == fetex::FbtSampleFormat::Rgba16F;
     auto loaded = load_image(image, options.scene, options.threads, diagnostics);
     if (!loaded) return loaded.error();
     const FeaturedImage& picture = loaded.value().picture;

@@ -63,7 +63,8 @@ Result<LoadedBase> load_base(const CurvesRequest& request, std::vector<Diagnosti
     const auto bytes = read_input(request.how.base, kMaxImageBytes);
     if (!bytes) return bytes.error();
     base.hash = hash_of(bytes.value());
-    auto image = read_image(request.how.base, request.samples == "float" && request.how.kind == "color", diagnostics);
+    auto image = read_image(request.how.base, {.bright = request.samples == "float" && request.how.kind == "color"},
+                            diagnostics);
     if (!image) return image.error();
     base.image = std::move(image).value();
     return base;

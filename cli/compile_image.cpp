@@ -78,13 +78,13 @@ void append(FeatureCurves& to, const FeatureCurves& from) {
 
 } // namespace
 
-Result<RasterImage> read_image(const std::string& path, bool bright, std::vector<Diagnostic>& diagnostics) {
+Result<RasterImage> read_image(const std::string& path, ImageValues values, std::vector<Diagnostic>& diagnostics) {
     const auto decode = module_symbol(kDecodeImage);
     if (!decode) return decode.error();
     Received received;
-    const double most = bright ? fetex::kFbtMaxHalf : 1;
+    const double most = values.bright ? fetex::kFbtMaxHalf : 1;
     const ImageOutcome outcome = reinterpret_cast<DecodeImage>(decode.value())(
-        path.c_str(), kMaxImageSide, kMaxImagePixels, most, receive, &received);
+        path.c_str(), kMaxImageSide, kMaxImagePixels, most, values.data, receive, &received);
     if (outcome != ImageOutcome::Read) return failed(outcome, received.failure);
     if (received.notes.clipped > 0)
         diagnostics.push_back({Severity::Warning, diag::kImageClipped,
@@ -103,7 +103,7 @@ Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& 
         if (!bytes) return bytes.error();
         out.source_hash = hash_of(bytes.value());
     }
-    auto image = read_image(options.image, options.bright, diagnostics);
+    auto image = read_image(options.image, options.values, diagnostics);
     if (!image) return image.error();
     RasterImage& pixels = out.picture.image = std::move(image).value();
     FeatureCurves& features = out.features;
@@ -139,6 +139,9 @@ CLI::Option* add_image_options(CLI::App& app, ImageOptions& options) {
                "--image", options.image,
                "Instead of SVG files: an image (whatever OpenImageIO reads), with features; default size: its own")
             ->type_name("FILE");
+    app.add_flag("--data", options.values.data,
+                 "The image's numbers are no colours but data, such as normals: none is sRGB-encoded")
+        ->needs(image);
     app.add_option("--features", options.features,
                    "The image's features: an SVG over it. Edges of what is filled, and middles of strokes without fill")
         ->needs(image)

@@ -15,13 +15,19 @@ namespace fetexc::cli {
 
 inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 30; ///< of an image's file
 
+/// What an image's numbers are.
+struct ImageValues {
+    bool bright = false; ///< colours above 1 stay as they are, for samples in halves
+    bool data = false;   ///< no colours: never encoded
+};
+
 struct ImageOptions {
     std::string image;    ///< empty: no image
     std::string features; ///< an SVG; empty: none
     bool trace = false;
     TraceOptions tracing;
     double invalidate = 1; ///< pixels
-    bool bright = false;   ///< colours above 1 stay as they are, for samples in halves
+    ImageValues values;
 };
 
 struct LoadedImage {
@@ -36,11 +42,11 @@ struct LoadedImage {
 Result<LoadedImage> load_image(const ImageOptions& options, const SceneOptions& scene, unsigned threads,
                                std::vector<Diagnostic>& diagnostics);
 
-/// An image of any kind that OpenImageIO reads. bright: colours up to 65504, encoded, else up to 1. Errors 1101 … 1103,
-/// 8053.
-Result<RasterImage> read_image(const std::string& path, bool bright, std::vector<Diagnostic>& diagnostics);
+/// An image of any kind that OpenImageIO reads. values.bright: colours up to 65504, encoded, else up to 1. Errors 1101
+/// … 1103, 8053.
+Result<RasterImage> read_image(const std::string& path, ImageValues values, std::vector<Diagnostic>& diagnostics);
 
-/// --image, --features, --trace, --trace-contrast, --trace-speck, --invalidate. Returns --image.
+/// --image, --data, --features, --trace, --trace-contrast, --trace-speck, --invalidate. Returns --image.
 CLI::Option* add_image_options(CLI::App& app, ImageOptions& options);
 
 } // namespace fetexc::cli

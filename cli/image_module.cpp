@@ -110,8 +110,8 @@ bool clip(double& c, double most) {
 
 class ImageReader {
   public:
-    ImageReader(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most)
-        : path_(path), max_side_(max_side), max_pixels_(max_pixels), most_(most) {}
+    ImageReader(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most, bool data)
+        : path_(path), max_side_(max_side), max_pixels_(max_pixels), most_(most), data_(data) {}
 
     std::optional<Failure> read() {
         OIIO::ImageSpec wish;
@@ -173,7 +173,7 @@ class ImageReader {
     /// Whole rows of tiles, or of pixels, so that never more than the result is held for long.
     bool read_strips(OIIO::ImageInput& input, const ChannelReads& reads) {
         const int rows = tiled() ? spec_.tile_height : kStripRows;
-        const bool is_straight = straight(input), linear = is_linear(spec_);
+        const bool is_straight = straight(input), linear = !data_ && is_linear(spec_);
         const auto step = static_cast<std::size_t>(reads.step), row = step * static_cast<std::size_t>(spec_.width);
         std::vector<float> pixels(row * static_cast<std::size_t>(std::min(rows, spec_.height)));
         for (int y = 0; y < spec_.height; y += std::min(rows, spec_.height - y)) {
@@ -259,15 +259,16 @@ class ImageReader {
     std::uint32_t max_side_;
     std::uint64_t max_pixels_;
     double most_;
+    bool data_;
     OIIO::ImageSpec spec_;
 };
 
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) ImageOutcome
-fetexc_decode_image(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most,
+fetexc_decode_image(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most, bool data,
                     fetexc::cli::ImageSink sink, void* context) {
-    ImageReader reader(path, max_side, max_pixels, most);
+    ImageReader reader(path, max_side, max_pixels, most, data);
     std::optional<Failure> failure;
     try {
         failure = reader.read();

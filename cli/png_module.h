@@ -40,9 +40,10 @@ using ImageSink = void (*)(void* context, const void* bytes, std::uint32_t width
 /// Any image that OpenImageIO reads, of several the first; turned as its Orientation says; of an EXR the display
 /// window. Colours are R, G and B, or Y, or a single channel; others are Unsupported. Refused before anything is
 /// decoded: sides of more than max_side, more than max_pixels, more than 1 GiB to be unpacked at once. Straight,
-/// encoded colours are clipped to 0 … most: at 1 they are rounded to 16 bits, above not. Calls the sink once.
+/// encoded colours are clipped to 0 … most: at 1 they are rounded to 16 bits, above not. data: numbers are no colours,
+/// and none is encoded. Calls the sink once.
 using DecodeImage = ImageOutcome (*)(const char* path, std::uint32_t max_side, std::uint64_t max_pixels, double most,
-                                     ImageSink sink, void* context);
+                                     bool data, ImageSink sink, void* context);
 
 inline constexpr const char* kPngModule = "libfetexc_png.so";
 inline constexpr const char* kEncodePng = "fetexc_encode_png";

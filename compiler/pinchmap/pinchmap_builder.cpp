@@ -7,6 +7,7 @@
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/error_budget.h"
 #include "compiler/pinchmap/feature_zones.h"
 #include "compiler/pinchmap/map_fit.h"
 #include "compiler/pinchmap/pinchmap_sizes.h"
@@ -31,16 +32,21 @@ std::string place_text(double u, double v) {
     return text;
 }
 
+std::string number_text(double v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", v);
+    return text;
+}
+
 void warn(PinchmapBuild& build, int code, const std::string& message) {
     build.diagnostics.push_back({Severity::Warning, code, message, ""});
 }
 
 void warn_of_losses(const SignalFit& signal, PinchmapBuild& build) {
     if (signal.lost == 0) return;
-    char part[32];
-    std::snprintf(part, sizeof part, "%.1f", signal.lost * 1e6);
     warn(build, diag::kPinchmapPartsLost,
-         std::string(part) + " ppm of the drawing are too thin or too crowded for the map, and blurred; some are at " +
+         number_text(signal.lost * 1e6) +
+             " ppm of the drawing are too thin or too crowded for the map, and blurred; some are at " +
              place_text(signal.lost_u, signal.lost_v));
 }
 
@@ -64,10 +70,22 @@ void warn_of_crosses(const std::vector<PinchmapTexel>& map, const PinchmapOption
         if (map[k].du == 0 && map[k].dv == 0 && build.stats.crosses++ == 0) first = k;
     }
     if (build.stats.crosses == 0) return;
+    const double clusters = static_cast<double>(options.size.width) * options.size.height;
     warn(build, diag::kPinchmapCrosses,
-         std::to_string(build.stats.crosses) + " crossings of edges are blurred; one is at " +
+         std::to_string(build.stats.crosses) + " crossings of edges are blurred, about " +
+             number_text(static_cast<double>(build.stats.crosses) * budget::kPinchmapCross / clusters * 1e6) +
+             " ppm of the drawing; one is at " +
              place_text(static_cast<double>(first % columns) / options.size.width,
                         static_cast<double>(first / columns) / options.size.height));
+}
+
+void warn_of_blurred_edges(const TwoZones& zones, PinchmapBuild& build) {
+    if (zones.blurred == 0) return;
+    warn(build, diag::kPinchmapEdgesBlurred,
+         std::to_string(zones.blurred) + " edges lie between colours of one zone and are blurred, " +
+             number_text(zones.blurred_part * 100) +
+             " % of all by length and contrast; the one that shows most is at " +
+             place_text(zones.blurred_u, zones.blurred_v));
 }
 
 std::vector<PinchmapTexel> map_of(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
@@ -150,12 +168,7 @@ Result<PinchmapBuild> compile_pinchmap(const Scene& scene, const PinchmapOptions
     const Silhouette& silhouette = zones.value().silhouette;
     out.texture = texture_of(map_of(*solver.value(), silhouette, options, out), options);
     out.stats.edges_blurred = zones.value().blurred;
-    if (zones.value().blurred > 0) {
-        warn(out, diag::kPinchmapEdgesBlurred,
-             std::to_string(zones.value().blurred) +
-                 " edges lie between colours of one zone and are blurred; one is at " +
-                 place_text(zones.value().blurred_u, zones.value().blurred_v));
-    }
+    warn_of_blurred_edges(zones.value(), out);
     finish(silhouette, paint.value(), options, progress, out);
     return out;
 }

@@ -67,6 +67,8 @@ class Zoner {
         double most = 0;
         for (std::size_t k = 0; k < edges_.size(); ++k)
             add(k, parities, out, most);
+        const double all = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+        if (all > 0) out.blurred_part /= all;
         out.silhouette.above_everywhere = false;
         return out;
     }
@@ -108,7 +110,7 @@ class Zoner {
         VisibleEdge e = edges_[k];
         const int left = parities.find(number(e.left)).second, right = parities.find(number(e.right)).second;
         if (left == right) {
-            ++out.blurred;
+            ++out.blurred, out.blurred_part += weights_[k];
             const WidthPoint m = middle_of(e);
             if (weights_[k] > most)
                 most = weights_[k], out.blurred_u = m.x, out.blurred_v = m.y / out.silhouette.height;

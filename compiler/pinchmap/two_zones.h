@@ -12,6 +12,7 @@ struct TwoZones {
     Silhouette silhouette;
     std::uint64_t edges = 0;             ///< all visible ones
     std::uint64_t blurred = 0;           ///< of them: between colours in one zone
+    double blurred_part = 0;             ///< 0 … 1: their share of all edges, by length times contrast
     double blurred_u = 0, blurred_v = 0; ///< 0 … 1: the middle of the one that shows most
 };
 

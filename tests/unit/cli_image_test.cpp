@@ -28,7 +28,7 @@ class ImageFile : public testing::Test {
         return path.string();
     }
     RasterImage read(const std::string& name, const std::string& bytes, bool bright = false) {
-        auto image = read_image(write(name, bytes), bright, diagnostics_);
+        auto image = read_image(write(name, bytes), {.bright = bright}, diagnostics_);
         if (!image.ok()) throw std::runtime_error(image.error().message);
         return std::move(image).value();
     }
@@ -182,6 +182,15 @@ std::string exr(const std::vector<std::string>& names, const std::vector<float>&
 }
 
 /// Where the pixels of a picture, stored as 0 1 2 / 3 4 5, are seen.
+/// Floating point is linear light unless it is no light at all.
+TEST_F(ImageFile, dataIsNeverEncoded) {
+    const std::string bytes = exr({"B", "G", "R"}, {0.25f, 0.5f, 0.75f});
+    const auto data = read_image(write("n.exr", bytes), {.data = true}, diagnostics_);
+    ASSERT_TRUE(data.ok());
+    expect_pixel(data.value(), 0, 0, {0.75, 0.5, 0.25, 1}, kWord);
+    EXPECT_GT(read("c.exr", bytes).at(0, 0).r, 0.85);
+}
+
 TEST_F(ImageFile, isTurnedAsItsOrientationSays) {
     const std::vector<std::vector<int>> seen = {{0, 1, 2, 3, 4, 5}, {2, 1, 0, 5, 4, 3}, {5, 4, 3, 2, 1, 0},
                                                 {3, 4, 5, 0, 1, 2}, {0, 3, 1, 4, 2, 5}, {3, 0, 4, 1, 5, 2},
@@ -198,7 +207,7 @@ TEST_F(ImageFile, isTurnedAsItsOrientationSays) {
 
 TEST_F(ImageFile, refusesWhatItCantTake) {
     const auto code = [&](const std::string& name, const std::string& bytes) {
-        const auto image = read_image(write(name, bytes), false, diagnostics_);
+        const auto image = read_image(write(name, bytes), {}, diagnostics_);
         return image.ok() ? 0 : image.error().code;
     };
     EXPECT_EQ(code("a.png", "no picture"), diag::kImageUnreadable);
@@ -255,7 +264,7 @@ TEST_F(ImageFile, channelsAreKnownByTheirNames) {
 TEST_F(ImageFile, channelsWithoutAMeaningAreRefusedByName) {
     const auto refused = [&](const std::vector<std::string>& names) {
         const auto image =
-            read_image(write("a.exr", exr(names, std::vector<float>(names.size(), 1))), false, diagnostics_);
+            read_image(write("a.exr", exr(names, std::vector<float>(names.size(), 1))), {}, diagnostics_);
         return image.ok() ? Error{} : image.error();
     };
     EXPECT_EQ(refused({"foo", "fur"}).code, diag::kImageUnsupported);
@@ -273,7 +282,7 @@ TEST_F(ImageFile, thousandsOfChannelsAreRefusedBeforeTheyAreRead) {
         names.push_back("c" + std::to_string(1000 + k));
     names.insert(names.begin(), {"B", "G", "R"});
     const std::string header = exr(names, {}, 16384, 256);
-    const auto image = read_image(write("a.exr", header), false, diagnostics_);
+    const auto image = read_image(write("a.exr", header), {}, diagnostics_);
     ASSERT_FALSE(image.ok());
     EXPECT_EQ(image.error().code, diag::kImageTooLarge);
 }

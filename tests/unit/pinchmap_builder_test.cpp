@@ -172,12 +172,29 @@ TEST(PinchmapBuilder, edgesInAZoneAreNamed) {
     const PinchmapBuild b = build(scene_of_svg(text), options_of(16));
     EXPECT_GE(b.stats.edges_blurred, 1u);
     EXPECT_TRUE(says(b, diag::kPinchmapEdgesBlurred));
+    const auto said =
+        std::ranges::find(b.diagnostics, static_cast<int>(diag::kPinchmapEdgesBlurred), &Diagnostic::code);
+    EXPECT_NE(said->message.find(" % of all by length and contrast; the one that shows most is at u,v "),
+              std::string::npos);
     const std::string two =
         R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="100" height="100" fill="#fff"/>
 <rect x="10" y="10" width="40" height="50" fill="#00f"/><rect x="60" y="20" width="30" height="50" fill="#0a0"/></svg>)svg";
     const PinchmapBuild c = build(scene_of_svg(two), options_of(16));
     EXPECT_EQ(c.stats.edges_blurred, 0u);
     EXPECT_FALSE(says(c, diag::kPinchmapEdgesBlurred));
+}
+
+/// Two squares that touch in a corner: named, with how much that blurs.
+TEST(PinchmapBuilder, crossingsAreNamed) {
+    const std::string text =
+        R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="160" height="160"><rect width="160" height="160" fill="#fff"/>
+<rect x="20" y="20" width="60" height="60"/><rect x="80" y="80" width="60" height="60"/></svg>)svg";
+    const PinchmapBuild b = build(scene_of_svg(text), options_of(16));
+    EXPECT_EQ(b.stats.crosses, 1u);
+    const auto said = std::ranges::find(b.diagnostics, static_cast<int>(diag::kPinchmapCrosses), &Diagnostic::code);
+    ASSERT_NE(said, b.diagnostics.end());
+    EXPECT_EQ(said->message,
+              "1 crossings of edges are blurred, about 1953.1 ppm of the drawing; one is at u,v 0.5000,0.5000");
 }
 
 /// A disc whose alpha falls within `pixels`, of one gradient.
