@@ -177,35 +177,35 @@ inline constexpr double kFeatureChord = 0x1p-12;
 /// Texels: texels in which snapping moves a feature curve by more are told one by one.
 inline constexpr double kFeatureMoveTold = 0.5;
 
-/// Radians, and texels inside a texel: tangents closer than this are parallel. Angles are known to 2^-52; the point where
-/// two lines meet, to that over their angle, 2^-22 of a texel.
+/// Radians, and texels inside a texel: tangents closer than this are parallel. Angles are known to 2^-52; the point
+/// where two lines meet, to that over their angle, 2^-22 of a texel.
 inline constexpr double kFeatureParallel = 0x1p-30;
 
-/// Texels: what is no farther from the input hasn't moved: half a step of positions in a texture. Rounding to the lattice
-/// turns tangents by 2^-21 (a quarter of a texel, 512 of them), which moves a middle point by 2^-16 where they meet at
-/// 2^-5.
+/// Texels: what is no farther from the input hasn't moved: half a step of positions in a texture. Rounding to the
+/// lattice turns tangents by 2^-21 (a quarter of a texel, 512 of them), which moves a middle point by 2^-16 where they
+/// meet at 2^-5.
 inline constexpr double kFeatureMoveNoise = kOutputStep / 2;
 
-/// Texels: a valid middle point is so far inside its texel, and thereby from the ends: a tangent taken from there is known
-/// to 2^-52 over this, 2^-36.
+/// Texels: a valid middle point is so far inside its texel, and thereby from the ends: a tangent taken from there is
+/// known to 2^-52 over this, 2^-36.
 inline constexpr double kFeatureLeastHandle = kOutputStep / 2;
 
-/// Texels: fitted points and middle points stay so far from corners and edges. The coarsest angles, halves, are off by up
-/// to 2^-10, which moves a middle point across a texel by as much; eight times that leaves room for tangents that meet at
-/// small angles.
+/// Texels: fitted points and middle points stay so far from corners and edges. The coarsest angles, halves, are off by
+/// up to 2^-10, which moves a middle point across a texel by as much; eight times that leaves room for tangents that
+/// meet at small angles.
 inline constexpr double kFeatureMargin = 0x1p-7;
 
-/// Texels: a quadratic this close to its chord is written as straight where numbers of the texture can't hold it: half a
-/// step of its positions.
+/// Texels: a quadratic this close to its chord is written as straight where numbers of the texture can't hold it: half
+/// a step of its positions.
 inline constexpr double kFeatureFlat = kOutputStep / 2;
 
-/// Fitting ends at steps of this size (texels, and of the variables that stand for them) and constraints off by as much.
-/// The energy is flat around its least value: it is then known to the square of it.
+/// Fitting ends at steps of this size (texels, and of the variables that stand for them) and constraints off by as
+/// much. The energy is flat around its least value: it is then known to the square of it.
 inline constexpr double kFeatureFitStop = 1e-9;
 inline constexpr int kFeatureFitSteps = 60;
 
-/// Texels: a corner nearer to a curve lies on it. Coordinates up to 2^14 and a dozen operations err by 2^-36 at most, so
-/// from here on the direction from the nearest point is known to 2^-8; nearer it would be rounding noise.
+/// Texels: a corner nearer to a curve lies on it. Coordinates up to 2^14 and a dozen operations err by 2^-36 at most,
+/// so from here on the direction from the nearest point is known to 2^-8; nearer it would be rounding noise.
 inline constexpr double kFeatureOnCurve = 0x1p-28;
 
 // What follows belongs to the error measures (compiler/measure); nothing of the compiler depends on it.
@@ -423,7 +423,8 @@ inline constexpr double kPinchmapDear = kPinchmapWorthAMove / 5, kPinchmapOpen =
 /// Part of what a corner's dearer side costs if its texel is active and needn't be: less than kPinchmapDear of
 /// kPinchmapFarWrong, so that it only decides between zones that cost the same.
 inline constexpr double kPinchmapIdle = 0.002;
-/// Square clusters wrong around 2 x 2 texels: less isn't worth a round of the search for gamma, a hundredth of a move's.
+/// Square clusters wrong around 2 x 2 texels: less isn't worth a round of the search for gamma, a hundredth of a
+/// move's.
 inline constexpr double kPinchmapWorthARound = kPinchmapWorthAMove / 100;
 /// Square clusters of wrong area around an active texel: up to here it stays sharp, from there on its strength is 0, as
 /// a cross's is.
@@ -436,14 +437,27 @@ inline constexpr double kPinchmapFarInside = 0.75;
 inline constexpr double kPinchmapOnTheLine = 1e-12;
 
 /// Weights in the fit of a pinchmap's signal, of the mean weight of a sample. Neighbours on one side are drawn together
-/// by so much: a sample that points tell anything about moves by less than a step of 16 bits, 2^-16, and one that hardly
-/// any do, where strengths taper, doesn't swing beyond its neighbours. A sample with less than the second isn't told
-/// anything.
+/// by so much: a sample that points tell anything about moves by less than a step of 16 bits, 2^-16, and one that
+/// hardly any do, where strengths taper, doesn't swing beyond its neighbours. A sample with less than the second isn't
+/// told anything.
 inline constexpr double kSignalTogether = 1e-5, kSignalUnseen = 1e-6;
 /// Colours times the mean weight: the largest residual at which the fit ends, a 150th of a step of 16 bits.
 inline constexpr double kSignalResidual = 1e-7;
 /// Of a pixel that mixes two sides, where no other tells a sample's colour: ten times what draws neighbours
 /// together, a ten thousandth of a pixel that doesn't mix.
 inline constexpr double kSignalMixed = 1e-4;
+
+/// Of the fit of feature curves, relative to the largest entry of a step's matrix: what is added where it isn't
+/// positive definite, half the digits of a double.
+inline constexpr double kFeatureFitShift = 1e-8;
+/// Relative to a constraint's derivatives: constraints that depend on each other, or can't be met, don't end the step.
+/// Some hundred roundings; refinements take out what it leaves.
+inline constexpr double kFeatureFitSlack = 1e-13;
+/// Relative: merits closer than some roundings are the same.
+inline constexpr double kFeatureFitRounding = 1e-14;
+
+/// Square clusters: a search for zones keeps what costs less by more than sums of its steps' differences round to (some
+/// 10^6 steps of 2^-53).
+inline constexpr double kPinchmapCostRounding = 1e-9;
 
 } // namespace fetexc::budget

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/error_budget.h"
 #include "compiler/feature_curves/small_cholesky.h"
 
 namespace fetexc::sqp {
@@ -13,13 +14,9 @@ namespace {
 /// Where a variable is in a step's quadratic problem.
 enum class Place : std::uint8_t { Free, Low, High };
 
-/// Relative to the largest entry of the objective's matrix: makes it positive definite.
-constexpr double kFirstShift = 1e-8;
 /// Relative to the largest entry: what is added across constraints.
 constexpr double kAcross = 10;
 constexpr int kCurvatureHalvings = 4;
-/// Relative to a constraint's derivatives: constraints that depend on each other, or can't be met, don't end the step.
-constexpr double kConstraintSlack = 1e-13;
 /// How often what the slack leaves of the constraints is solved for.
 constexpr int kRefinements = 3;
 /// Rounds of choosing active bounds: one after the other beyond the first half, where all at once may go round in a
@@ -27,7 +24,6 @@ constexpr int kRefinements = 3;
 constexpr int kActiveRounds = 40;
 constexpr double kSufficient = 1e-4; ///< Armijo's part of the decrease
 constexpr int kHalvings = 20;
-constexpr double kMeritRounding = 1e-14; ///< relative
 
 using Factor = SmallCholesky<kMostVariables>;
 
@@ -123,7 +119,7 @@ class Step {
         const auto lower = [&](int r, int c) {
             return s[static_cast<std::size_t>(std::max(r, c) * kMostConstraints + std::min(r, c))];
         };
-        const double slack = kConstraintSlack * (1 + most);
+        const double slack = budget::kFeatureFitSlack * (1 + most);
         if (!outer_.factor(m, [&](int r, int c) { return lower(r, c) + (r == c ? slack : 0); })) return false;
         for (int round = 0; round < kRefinements; ++round) {
             std::array<double, kMostConstraints> more{};
@@ -190,7 +186,7 @@ class Solver {
   public:
     Solver(const Task& task, Vector& x) : task_(task), x_(x) {
         multipliers_.setZero(task.constraints), weights_.setZero(task.constraints);
-        shift_ = kFirstShift * std::max(1.0, largest(task.hessian));
+        shift_ = budget::kFeatureFitShift * std::max(1.0, largest(task.hessian));
         evaluate();
     }
 
@@ -276,7 +272,7 @@ class Solver {
     bool accept(const Vector& x, double most) {
         x_ = x.cwiseMax(task_.low).cwiseMin(task_.high);
         evaluate();
-        return merit() <= most + kMeritRounding * (1 + std::abs(most));
+        return merit() <= most + budget::kFeatureFitRounding * (1 + std::abs(most));
     }
 
     /// Back towards the constraints, which bend away from a step along them.
@@ -286,7 +282,7 @@ class Solver {
         for (int k = 0; k < x.size(); ++k)
             if (places_[static_cast<std::size_t>(k)] != Place::Free) a.col(k).setZero();
         Square s = a.lazyProduct(a.transpose());
-        s.diagonal().array() += kConstraintSlack * (1 + s.diagonal().sum());
+        s.diagonal().array() += budget::kFeatureFitSlack * (1 + s.diagonal().sum());
         return x - a.transpose() * s.llt().solve(values_);
     }
 

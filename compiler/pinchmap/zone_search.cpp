@@ -52,8 +52,6 @@ class Search {
     }
 
   private:
-    static constexpr double kLessByRounding = 1e-9;
-
     [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j) const { return std::size_t{j} * mask_.width + i; }
 
     [[nodiscard]] std::vector<std::uint8_t> near_dear_corners() const {
@@ -121,7 +119,7 @@ class Search {
             return;
         }
         cost_ += after.cost - before.cost, broken_ += after.broken - before.broken;
-        if (broken_ == 0 && cost_ < least_ - kLessByRounding) least_ = cost_, best_ = mask_.above;
+        if (broken_ == 0 && cost_ < least_ - budget::kPinchmapCostRounding) least_ = cost_, best_ = mask_.above;
     }
 
     double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
