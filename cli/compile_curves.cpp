@@ -58,21 +58,22 @@ struct LoadedBase {
     std::string hash;
 };
 
+BaseImageKind base_kind(const CurvesCommandOptions& how) {
+    if (how.base_height > 0) return BaseImageKind::Height;
+    return how.kind == "normal" ? BaseImageKind::Normal : BaseImageKind::Color;
+}
+
 Result<LoadedBase> load_base(const CurvesRequest& request, std::vector<Diagnostic>& diagnostics) {
     LoadedBase base;
     const auto bytes = read_input(request.how.base, kMaxImageBytes);
     if (!bytes) return bytes.error();
     base.hash = hash_of(bytes.value());
-    auto image = read_image(request.how.base, {.bright = request.samples == "float" && request.how.kind == "color"},
-                            diagnostics);
+    const ImageValues values{.bright = request.samples == "float" && request.how.kind == "color",
+                             .data = base_kind(request.how) != BaseImageKind::Color};
+    auto image = read_image(request.how.base, values, diagnostics);
     if (!image) return image.error();
     base.image = std::move(image).value();
     return base;
-}
-
-BaseImageKind base_kind(const CurvesCommandOptions& how) {
-    if (how.base_height > 0) return BaseImageKind::Height;
-    return how.kind == "normal" ? BaseImageKind::Normal : BaseImageKind::Color;
 }
 
 FeatureCurvesOptions builder_options(const CurvesRequest& request) {
