@@ -17,6 +17,8 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include "compiler/huge_pages.h"
+
 namespace fetexc {
 
 /// How many threads `threads` asks for: no more than there are processors.
@@ -59,13 +61,22 @@ void parallel_for_chunks(std::size_t count, std::size_t chunk, unsigned threads,
                  [&](std::size_t k) { body(k * chunk, std::min(count, (k + 1) * chunk)); });
 }
 
-/// Leaves new elements unwritten, for vectors that several threads fill.
+/// Leaves new elements unwritten, for vectors that several threads fill. Large ones lie in pages of 2 MiB where the
+/// system has them: first touching 4 KiB at a time takes longer than what is done with it.
 template <class T> struct UnwrittenAllocator : std::allocator<T> {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
     template <class U> struct rebind { using other = UnwrittenAllocator<U>; };
     template <class U> void construct(U*) {}
     template <class U, class... Args> void construct(U* p, Args&&... args) {
         std::construct_at(p, std::forward<Args>(args)...);
+    }
+    T* allocate(std::size_t n) {
+        if (huge_pages_of(n * sizeof(T)) == 0) return std::allocator<T>::allocate(n);
+        return static_cast<T*>(allocate_in_huge_pages(n * sizeof(T)));
+    }
+    void deallocate(T* p, std::size_t n) {
+        if (huge_pages_of(n * sizeof(T)) == 0) return std::allocator<T>::deallocate(p, n);
+        free_in_huge_pages(p);
     }
 };
 template <class T> using UnwrittenVector = std::vector<T, UnwrittenAllocator<T>>;

@@ -162,6 +162,10 @@ FitCounts fit_points_by_samples(SilmapCells& cells, fetex::SilmapCellFormat form
     parallel_for_chunks(samples.size(), chunk, threads, [&](std::size_t first, std::size_t end) {
         for (std::size_t k = first; k < end; ++k) {
             SilmapCellData& c = cells.cells[k];
+            if (c.boundaries == 0) { // nothing moves here
+                cells.measure(c);
+                continue;
+            }
             samples[k] = CellSamples(cells.truth_of(c), c.shown.corners, lines);
             c.shown.exit = exits_of(cells, c, c.shown.point);
             c.wrong = samples[k].all_but_last();
@@ -175,7 +179,11 @@ FitCounts fit_points_by_samples(SilmapCells& cells, fetex::SilmapCellFormat form
     PointFit fit(cells, format, threads, samples);
     fit.pick_worth_settling();
     const FitCounts out = fit.settle();
-    measure_cells(cells, threads);
+    parallel_for_chunks(samples.size(), chunk, threads, [&](std::size_t first, std::size_t end) {
+        for (std::size_t k = first; k < end; ++k) {
+            if (cells.cells[k].boundaries != 0) cells.measure(cells.cells[k]);
+        }
+    });
     return out;
 }
 

@@ -16,6 +16,18 @@ std::uint32_t places_before(double v, std::uint32_t count) {
 
 constexpr std::uint64_t first_bits(std::uint32_t n) { return (std::uint64_t{1} << n) - 1; }
 
+/// Of a line, 0 … 16; what lies beyond is never used.
+constexpr std::uint32_t kLineBits = 32;
+constexpr std::array<std::uint16_t, kLineBits> kFirstBits = [] {
+    std::array<std::uint16_t, kLineBits> out{};
+    for (std::uint32_t n = 0; n < kLineBits; ++n)
+        out[n] = static_cast<std::uint16_t>(first_bits(std::min(n, 16u)));
+    return out;
+}();
+
+/// Lines of a word from one, of 0 … 4, on.
+constexpr std::uint64_t lines_from(std::uint32_t first) { return first < 4 ? ~std::uint64_t{0} << 16 * first : 0; }
+
 /// Bits of a by fours, 0 … 4.
 constexpr std::uint64_t counted_by_fours(std::uint64_t a) {
     constexpr std::uint64_t pairs = 0x5555'5555'5555'5555, fours = 0x3333'3333'3333'3333;
@@ -72,10 +84,10 @@ CellSamples::CellSamples(const CellTruth& truth, const std::array<ResultId, 4>& 
 }
 
 double CellSamples::all_but_last() const {
-    int last = 0;
+    std::uint64_t bytes = 0;
     for (const std::uint64_t word : of_corner_[fetex::kSilmapSE])
-        last += std::popcount(word);
-    return area_of_places(static_cast<int>(inside_) - last);
+        bytes += more_by_bytes(word, 0);
+    return area_of_places(static_cast<int>(inside_) - (sum_of_bytes(bytes) - 64 * static_cast<int>(kMostLines / kRows)));
 }
 
 /// Places left of the way from one point to another, of those with one result less those with another, with the sign
@@ -87,18 +99,25 @@ int CellSamples::count_left(const SilmapPoint& from, const SilmapPoint& to, std:
     const std::uint32_t end = places_before(bottom.y, lines_);
     std::uint32_t j = places_before(top.y, lines_);
     if (j >= end) return 0;
-    const double step = (bottom.x - top.x) * kColumns / ((bottom.y - top.y) * lines_);
-    double x = top.x * kColumns + 0.5 + (j + 0.5 - top.y * lines_) * step; // as places_before
+    // As places_before, in 2^-16 of a place, and by more than rounding adds up to farther on, so that ways through the
+    // middles of places have them left; from the first line of a word on.
+    constexpr double unit = 1 << 16, rounding = kMostLines / unit;
+    const double run = (bottom.x - top.x) * kColumns / ((bottom.y - top.y) * lines_);
+    const std::uint32_t first = j / kRows, last = (end - 1) / kRows;
+    const auto step = static_cast<std::uint32_t>(static_cast<std::int64_t>(run * unit));
+    auto x = static_cast<std::uint32_t>(
+                 static_cast<std::int64_t>((top.x * kColumns + 0.5 + rounding + (j + 0.5 - top.y * lines_) * run) * unit)) -
+             j % kRows * step;
     std::uint64_t bytes = 0;
-    int added = 0; // to them
-    while (j < end) {
-        const std::uint32_t word = j / kRows, next = std::min(end, (word + 1) * kRows);
+    for (std::uint32_t word = first; word <= last; ++word) {
         std::uint64_t left = 0;
-        for (; j < next; ++j, x += step)
-            left |= first_bits(static_cast<std::uint32_t>(x)) << j % kRows * kColumns;
+        for (std::uint32_t k = 0; k < kRows; ++k, x += step)
+            left |= std::uint64_t{kFirstBits[(x >> 16) % kLineBits]} << k * kColumns;
+        if (word == first) left &= lines_from(j % kRows);
+        if (word == last) left &= ~lines_from(end - word * kRows);
         bytes += more_by_bytes(of_corner_[plus][word] & left, of_corner_[minus][word] & left);
-        added += 64;
     }
+    const int added = 64 * static_cast<int>(last - first + 1);
     const int sum = sum_of_bytes(bytes) - added;
     return down ? sum : -sum;
 }

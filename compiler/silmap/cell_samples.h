@@ -28,9 +28,9 @@ class CellSamples {
     struct Sides {
         const std::uint64_t *plus = nullptr, *minus = nullptr;
 
-        /// 1, −1, or 0 with neither; i, j: place, modulo the cell.
-        [[nodiscard]] int operator()(std::uint32_t i, std::uint32_t j, std::uint32_t lines) const {
-            const std::uint32_t word = (j & (lines - 1)) / kRows, bit = j % kRows * kColumns + i % kColumns;
+        /// 1, −1, or 0 with neither; place: column + kColumns · line.
+        [[nodiscard]] int operator()(std::uint32_t place) const {
+            const std::uint32_t word = place / kPlaces, bit = place % kPlaces;
             return static_cast<int>(plus[word] >> bit & 1) - static_cast<int>(minus[word] >> bit & 1);
         }
     };
@@ -43,6 +43,7 @@ class CellSamples {
 
   private:
     static constexpr std::uint32_t kRows = 4; ///< lines in a word
+    static constexpr std::uint32_t kPlaces = kRows * kColumns;
     using Mask = std::array<std::uint64_t, kMostLines / kRows>;
     [[nodiscard]] int count_left(const fetex::SilmapPoint& from, const fetex::SilmapPoint& to, std::uint32_t plus,
                                  std::uint32_t minus) const;

@@ -147,6 +147,7 @@ double PointMoves::balance_of(const SilmapCellData& c, const SilmapPoint& p, std
     return balance;
 }
 
+/// The same times some factor.
 double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint& p, std::uint32_t link,
                                       const SilmapPoint& way) const {
     constexpr std::uint32_t parts = 6;
@@ -158,17 +159,21 @@ double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint
             ? CellSamples::nothing()
             : samples_of(cells_.cells[neighbour]).sides(corner_across(right, link), corner_across(left, link)),
         own.sides(right, left)};
-    // In places, a cell further right and down, so that nothing is below 0.
-    const double du = way.x * columns / parts, dv = way.y * lines / parts;
-    double u = (p.x + 1) * columns + du / 2, v = (p.y + 1) * lines + dv / 2;
-    int balance = 0; // halves of parts
-    for (std::uint32_t k = 0; k < parts; ++k, u += du, v += dv) {
-        const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
-        const auto inside =
-            static_cast<std::size_t>(i - columns < columns) & static_cast<std::size_t>(j - lines < lines);
-        balance += static_cast<int>(2 * (parts - k) - 1) * sides[inside](i, j, lines);
+    // In 2^-16 of places, a cell further right and down, so that nothing is below 0.
+    constexpr double place = 1 << 16, column = CellSamples::kColumns * place;
+    const double line = lines * place;
+    const auto du = static_cast<std::int32_t>(way.x * (column / parts)),
+               dv = static_cast<std::int32_t>(way.y * (line / parts));
+    auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.x + 1) * column) + du / 2),
+         v = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.y + 1) * line) + dv / 2);
+    int balance = 0;
+    for (std::uint32_t k = 0; k < parts; ++k, u += static_cast<std::uint32_t>(du), v += static_cast<std::uint32_t>(dv)) {
+        const std::uint32_t i = (u >> 16) - columns, j = (v >> 16) - lines;
+        const auto inside = static_cast<std::size_t>(i < columns) & static_cast<std::size_t>(j < lines);
+        const std::uint32_t at = (j & (lines - 1)) * columns + (i & (columns - 1));
+        balance += static_cast<int>(2 * (parts - k) - 1) * sides[inside](at);
     }
-    return static_cast<double>(balance) / (2 * parts);
+    return balance;
 }
 
 double PointMoves::walk(std::uint32_t cell, std::int64_t stride) {

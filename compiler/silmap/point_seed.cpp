@@ -12,6 +12,7 @@ namespace {
 using fetex::SilmapPoint;
 
 constexpr double kOut = 9.0 / 4, kStepWeight = 0.1;
+constexpr double kOnEdge = 1.0 / 16; ///< steps from an edge that are as good as none
 
 SilmapPoint middle_of(const std::vector<CellChord>& chords) {
     double x = 0, y = 0, sum = 0;
@@ -45,8 +46,8 @@ class StepScan {
     [[nodiscard]] std::optional<CellSteps> best() const { return best_; }
 
   private:
-    /// Along x or y from (u, v) on: outwards from the middle, no farther than a step exactly on the edge could win. Of
-    /// equal ones the first wins.
+    /// Along x or y from (u, v) on: outwards from the middle, no farther than a step exactly on the edge could win, or
+    /// until there is nearly one. Of equal ones the first wins.
     template <bool level> void scan(double u, double v, double du, double dv) {
         if (du == 0) return;
         const double from = std::min(u, u + du), to = std::max(u, u + du), slope = dv / du,
@@ -54,8 +55,10 @@ class StepScan {
                      beside = level ? middle_.y : middle_.x;
         const std::uint32_t first = fetex::silmap_step(format_, from), end = fetex::silmap_step(format_, to),
                             start = std::clamp(fetex::silmap_step(format_, middle), first, end);
+        const double on_edge = kOnEdge / fetex::silmap_steps(format_);
         double least = least_;
         std::optional<CellSteps> best;
+        bool found = false;
         const auto look = [&](std::uint32_t k, bool ties) {
             const double at = fetex::silmap_position(format_, k), along_u = at - middle;
             const double far = weight_ * (along_u * along_u);
@@ -64,15 +67,20 @@ class StepScan {
             const double edge = v + (at - u) * slope;
             const std::uint32_t n = fetex::silmap_step(format_, edge);
             const double place = fetex::silmap_position(format_, n), along_v = place - beside;
-            const double cost = std::abs(place - edge) * across + weight_ * (along_u * along_u + along_v * along_v);
+            const double off = std::abs(place - edge) * across;
+            const double cost = off + weight_ * (along_u * along_u + along_v * along_v);
             if (cost < least || (ties && best && cost == least))
-                least = cost, best = level ? CellSteps{k, n} : CellSteps{n, k};
+                least = cost, best = level ? CellSteps{k, n} : CellSteps{n, k}, found = off <= on_edge;
             return true;
         };
-        for (std::uint32_t k = start; look(k, true) && k > first; --k)
-            ;
-        for (std::uint32_t k = start + 1; k <= end && look(k, false); ++k)
-            ;
+        std::uint32_t before = start, after = start + 1;
+        for (bool back = true, on = true; (back || on) && !found;) {
+            back = back && look(before, true) && before > first;
+            if (back) --before;
+            if (found) break;
+            on = on && after <= end && look(after, false);
+            ++after;
+        }
         if (best) least_ = least, best_ = best;
     }
 

@@ -38,11 +38,13 @@ void link(SilmapCells& cells, SilmapCellData& c) {
         if ((c.boundaries >> k & 1) == 0) continue;
         const std::int64_t i = std::int64_t{c.i} + (k == kSilmapEast) - (k == kSilmapWest),
                            j = std::int64_t{c.j} + (k == kSilmapSouth) - (k == kSilmapNorth);
-        const bool beyond = i < 0 || j < 0 || i > cells.width || j > cells.height;
-        c.neighbours[k] =
-            beyond ? kOwnPoint
-                   : static_cast<std::uint32_t>(
-                         cells.find(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)) - cells.cells.data());
+        if (i < 0 || j < 0 || i > cells.width || j > cells.height) {
+            c.neighbours[k] = kOwnPoint;
+            continue;
+        }
+        const SilmapCellData* there = j == c.j ? &c + (k == kSilmapEast ? 1 : -1) // it has the boundary, too
+                                               : cells.find(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+        c.neighbours[k] = static_cast<std::uint32_t>(there - cells.cells.data());
     }
 }
 
