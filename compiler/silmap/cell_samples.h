@@ -24,34 +24,22 @@ class CellSamples {
     /// Square cells: inside the canvas, without the south-east corner's result.
     [[nodiscard]] double all_but_last() const;
 
-    /// Places of a cell with the result of one corner, and those with another's.
-    struct Sides {
-        const std::uint64_t *plus = nullptr, *minus = nullptr;
-
-        /// 1, −1, or 0 with neither; place: column + kColumns · line.
-        [[nodiscard]] int operator()(std::uint32_t place) const {
-            const std::uint32_t word = place / kPlaces, bit = place % kPlaces;
-            return static_cast<int>(plus[word] >> bit & 1) - static_cast<int>(minus[word] >> bit & 1);
-        }
-    };
-    [[nodiscard]] Sides sides(std::uint32_t plus, std::uint32_t minus) const {
-        return {of_corner_[plus].data(), of_corner_[minus].data()};
+    /// 1 where the place has the result of the one corner, −1 where that of the other, else 0.
+    [[nodiscard]] int side(std::uint32_t column, std::uint32_t line, std::uint32_t plus, std::uint32_t minus) const {
+        const std::uint64_t corners = places_[line] >> 4 * column;
+        return static_cast<int>(corners >> plus & 1) - static_cast<int>(corners >> minus & 1);
     }
-    /// Nowhere anything.
-    static Sides nothing();
     [[nodiscard]] std::uint32_t lines() const { return lines_; }
 
   private:
-    static constexpr std::uint32_t kRows = 4; ///< lines in a word
-    static constexpr std::uint32_t kPlaces = kRows * kColumns;
-    using Mask = std::array<std::uint64_t, kMostLines / kRows>;
     [[nodiscard]] int count_left(const fetex::SilmapPoint& from, const fetex::SilmapPoint& to, std::uint32_t plus,
                                  std::uint32_t minus) const;
     [[nodiscard]] double area_of_places(int places) const {
         return static_cast<double>(places) / static_cast<double>(kColumns * lines_);
     }
 
-    std::array<Mask, 4> of_corner_{}; ///< places with the result of that corner
+    /// By line, four bits a place: the set of corners with its result.
+    std::array<std::uint64_t, kMostLines> places_{};
     std::uint32_t lines_ = kMostLines;
     std::uint32_t inside_ = 0; ///< places in the canvas
 };

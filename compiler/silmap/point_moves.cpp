@@ -153,12 +153,7 @@ double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint
     constexpr std::uint32_t parts = 6;
     const auto [right, left] = beside(link);
     const CellSamples& own = samples_of(c);
-    const std::uint32_t neighbour = c.neighbours[link], columns = CellSamples::kColumns, lines = own.lines();
-    const std::array<CellSamples::Sides, 2> sides{
-        neighbour == kOwnPoint
-            ? CellSamples::nothing()
-            : samples_of(cells_.cells[neighbour]).sides(corner_across(right, link), corner_across(left, link)),
-        own.sides(right, left)};
+    const std::uint32_t columns = CellSamples::kColumns, lines = own.lines();
     // In 2^-16 of places, a cell further right and down, so that nothing is below 0.
     constexpr double place = 1 << 16, column = CellSamples::kColumns * place;
     const double line = lines * place;
@@ -166,13 +161,18 @@ double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint
                dv = static_cast<std::int32_t>(way.y * (line / parts));
     auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.x + 1) * column) + du / 2),
          v = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.y + 1) * line) + dv / 2);
-    int balance = 0;
-    for (std::uint32_t k = 0; k < parts; ++k, u += static_cast<std::uint32_t>(du), v += static_cast<std::uint32_t>(dv)) {
+    int balance = 0, weight = 2 * parts - 1; // the part's distance from the other point, in halves of parts
+    const auto go_on = [&] { weight -= 2, u += static_cast<std::uint32_t>(du), v += static_cast<std::uint32_t>(dv); };
+    for (; weight > 0; go_on()) {
         const std::uint32_t i = (u >> 16) - columns, j = (v >> 16) - lines;
-        const auto inside = static_cast<std::size_t>(i < columns) & static_cast<std::size_t>(j < lines);
-        const std::uint32_t at = (j & (lines - 1)) * columns + (i & (columns - 1));
-        balance += static_cast<int>(2 * (parts - k) - 1) * sides[inside](at);
+        if (i >= columns || j >= lines) break;
+        balance += weight * own.side(i, j, right, left);
     }
+    if (c.neighbours[link] == kOwnPoint) return balance;
+    const CellSamples& other = samples_of(cells_.cells[c.neighbours[link]]);
+    for (; weight > 0; go_on())
+        balance += weight * other.side((u >> 16) % columns, (v >> 16) & (lines - 1), corner_across(right, link),
+                                       corner_across(left, link));
     return balance;
 }
 
