@@ -31,9 +31,9 @@ using ReadRow = std::vector<ReadCell>;
 
 class RowReader {
   public:
-    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, fetex::SilmapCellFormat format,
-              double chord, const SkipRules& skip, SilmapCells& out)
-        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, chord), format_(format), out_(out) {}
+    RowReader(const PlanarMap& map, const Scene& scene, Compositor& compositor, const CellReading& how,
+              const SkipRules& skip, SilmapCells& out)
+        : map_(map), mapper_(map, scene, compositor, stats_, skip), reader_(map, how.chord), how_(how), out_(out) {}
 
     /// False: the map contradicts itself.
     bool read(std::uint32_t j, const RowNotes& notes, ReadRow& cells) {
@@ -95,7 +95,7 @@ class RowReader {
             const std::vector<double>& crossings = drawing_.crossings[link];
             c.edges_across |= static_cast<std::uint32_t>(std::min<std::size_t>(crossings.size(), 255)) << 8 * link;
         }
-        c.seed = seed_of(drawing_, format_);
+        c.seed = seed_of(drawing_, how_.format, how_.on_edge);
         cells.push_back(c);
     }
 
@@ -103,7 +103,7 @@ class RowReader {
     PlanarStats stats_;
     TexelMapper mapper_;
     CellReader reader_;
-    fetex::SilmapCellFormat format_;
+    CellReading how_;
     RowNotes notes_;
     SilmapCells& out_;
     TexelMap cell_;
@@ -196,8 +196,8 @@ void write_cells(SilmapCells& cells, const std::vector<ReadRow>& edged, bool nea
 /// notes(j): of a row.
 template <class Notes>
 std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
-                                    const SkipRules& skip, const Notes& notes, PlanarStats& stats) {
+                                    const CellReading& how, bool near, unsigned threads, const SkipRules& skip,
+                                    const Notes& notes, PlanarStats& stats) {
     SilmapCells out;
     out.width = map.grid().width - 1, out.height = map.grid().height - 1;
     out.results.resize(std::size_t{out.width} * out.height);
@@ -209,7 +209,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     std::vector<PlanarStats> chunk_stats((rows + chunk - 1) / chunk);
     std::atomic<bool> good = true;
     parallel_for_chunks(rows, chunk, threads, [&](std::size_t first, std::size_t end) {
-        RowReader reader(map, scene, compositor, format, chord, skip, out);
+        RowReader reader(map, scene, compositor, how, skip, out);
         for (std::size_t j = first; j < end; ++j) {
             if (!reader.read(static_cast<std::uint32_t>(j), notes(j), edged[j])) good = false;
         }
@@ -218,7 +218,7 @@ std::optional<SilmapCells> read_all(const PlanarMap& map, const Scene& scene, Co
     if (!good) return std::nullopt;
     for (const PlanarStats& s : chunk_stats)
         add(stats, s);
-    write_cells(out, edged, near, format, threads);
+    write_cells(out, edged, near, how.format, threads);
     return out;
 }
 
@@ -234,24 +234,23 @@ std::uint64_t cells_with_edges(const PlanarMap& map) {
 }
 
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
-                                    const SkipRules& skip, PlanarStats& stats) {
+                                    const CellReading& how, bool near, unsigned threads, const SkipRules& skip,
+                                    PlanarStats& stats) {
     std::vector<PartsRow> parts(map.grid().height);
     const auto notes = [&](std::size_t j) { return RowNotes{&parts[j], nullptr}; };
-    auto cells = read_all(map, scene, compositor, format, chord, near, threads, skip, notes, stats);
+    auto cells = read_all(map, scene, compositor, how, near, threads, skip, notes, stats);
     if (!cells) return std::nullopt;
     return ReadCells{std::move(*cells), std::move(parts)};
 }
 
-std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
-                                              fetex::SilmapCellFormat format, double chord, unsigned threads,
-                                              const SkipRules& skip, PlanarStats& stats) {
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, const CellReading& how,
+                                              unsigned threads, const SkipRules& skip, PlanarStats& stats) {
     Compositor unasked(features, skip);
     std::vector<FaceRow> faces;
     for (std::uint32_t j = 0; j < map.grid().height; ++j)
         faces.emplace_back(map, j);
     const auto notes = [&](std::size_t j) { return RowNotes{nullptr, &faces[j]}; };
-    auto out = read_all(map, features, unasked, format, chord, false, threads, skip, notes, stats);
+    auto out = read_all(map, features, unasked, how, false, threads, skip, notes, stats);
     if (!out) return out;
     out->of_features = true;
     if (!find_boundaries(*out, map, faces, threads)) return std::nullopt;

@@ -19,16 +19,20 @@ struct ReadCells {
     std::vector<PartsRow> parts; ///< by row
 };
 
+struct CellReading {
+    fetex::SilmapCellFormat format;
+    double chord = 0;   ///< cells; what chords may miss edges by
+    double on_edge = 0; ///< steps; seeds as near to an edge are as good as on it
+};
+
 /// map: of make_cell_grid. Points are seeds (point_seed.h); corners, links and areas aren't there yet (link_cells).
-/// chord: cells; what chords may miss edges by. near: with the cells next to those with edges. None: the map
-/// contradicts itself.
+/// near: with the cells next to those with edges. None: the map contradicts itself.
 std::optional<ReadCells> read_cells(const PlanarMap& map, const Scene& scene, Compositor& compositor,
-                                    fetex::SilmapCellFormat format, double chord, bool near, unsigned threads,
-                                    const SkipRules& skip, PlanarStats& stats);
+                                    const CellReading& how, bool near, unsigned threads, const SkipRules& skip,
+                                    PlanarStats& stats);
 
 /// The same of features over an image (feature_scene): each face of a cell is a result of its own.
-std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features,
-                                              fetex::SilmapCellFormat format, double chord, unsigned threads,
-                                              const SkipRules& skip, PlanarStats& stats);
+std::optional<SilmapCells> read_feature_cells(const PlanarMap& map, const Scene& features, const CellReading& how,
+                                              unsigned threads, const SkipRules& skip, PlanarStats& stats);
 
 } // namespace fetexc

@@ -12,7 +12,6 @@ namespace {
 using fetex::SilmapPoint;
 
 constexpr double kOut = 9.0 / 4, kStepWeight = 0.1;
-constexpr double kOnEdge = 1.0 / 16; ///< steps from an edge that are as good as none
 
 SilmapPoint middle_of(const std::vector<CellChord>& chords) {
     double x = 0, y = 0, sum = 0;
@@ -33,8 +32,10 @@ SilmapPoint nearest_on(const CellChord& c, const SilmapPoint& p) {
 class StepScan {
   public:
     /// shift: of the edge. weight: of the squared distance from the middle, against the distance from the edge.
-    StepScan(fetex::SilmapCellFormat format, const SilmapPoint& shift, const SilmapPoint& middle, double weight)
-        : format_(format), shift_(shift), middle_(middle), weight_(weight) {}
+    /// on_edge: cells; as near to the edge is near enough.
+    StepScan(fetex::SilmapCellFormat format, const SilmapPoint& shift, const SilmapPoint& middle, double weight,
+             double on_edge)
+        : format_(format), shift_(shift), middle_(middle), weight_(weight), on_edge_(on_edge) {}
 
     void add(const CellChord& c) {
         const double dx = c.x1 - c.x0, dy = c.y1 - c.y0;
@@ -47,7 +48,7 @@ class StepScan {
 
   private:
     /// Along x or y from (u, v) on: outwards from the middle, no farther than a step exactly on the edge could win, or
-    /// until there is nearly one. Of equal ones the first wins.
+    /// until one is near enough. Of equal ones the first wins.
     template <bool level> void scan(double u, double v, double du, double dv) {
         if (du == 0) return;
         const double from = std::min(u, u + du), to = std::max(u, u + du), slope = dv / du,
@@ -55,7 +56,6 @@ class StepScan {
                      beside = level ? middle_.y : middle_.x;
         const std::uint32_t first = fetex::silmap_step(format_, from), end = fetex::silmap_step(format_, to),
                             start = std::clamp(fetex::silmap_step(format_, middle), first, end);
-        const double on_edge = kOnEdge / fetex::silmap_steps(format_);
         double least = least_;
         std::optional<CellSteps> best;
         bool found = false;
@@ -70,7 +70,7 @@ class StepScan {
             const double off = std::abs(place - edge) * across;
             const double cost = off + weight_ * (along_u * along_u + along_v * along_v);
             if (cost < least || (ties && best && cost == least))
-                least = cost, best = level ? CellSteps{k, n} : CellSteps{n, k}, found = off <= on_edge;
+                least = cost, best = level ? CellSteps{k, n} : CellSteps{n, k}, found = off <= on_edge_;
             return true;
         };
         std::uint32_t before = start, after = start + 1;
@@ -86,7 +86,7 @@ class StepScan {
 
     fetex::SilmapCellFormat format_;
     SilmapPoint shift_, middle_;
-    double weight_, least_ = INFINITY;
+    double weight_, on_edge_, least_ = INFINITY;
     std::optional<CellSteps> best_;
 };
 
@@ -103,7 +103,7 @@ SilmapPoint nearest_of(const CellDrawing& drawing, const SilmapPoint& to) {
 
 } // namespace
 
-CellSteps seed_of(const CellDrawing& drawing, fetex::SilmapCellFormat format) {
+CellSteps seed_of(const CellDrawing& drawing, fetex::SilmapCellFormat format, double on_edge_steps) {
     const auto at = [&](const SilmapPoint& p) -> CellSteps {
         return {fetex::silmap_step(format, p.x), fetex::silmap_step(format, p.y)};
     };
@@ -121,7 +121,8 @@ CellSteps seed_of(const CellDrawing& drawing, fetex::SilmapCellFormat format) {
     // much of the arc outside as inside.
     const double height = 3 * std::hypot(on_edge.x - middle.x, on_edge.y - middle.y);
     const SilmapPoint shift{kOut * (on_edge.x - middle.x), kOut * (on_edge.y - middle.y)};
-    StepScan scan(format, shift, on_edge, kStepWeight / fetex::silmap_steps(format) + height);
+    StepScan scan(format, shift, on_edge, kStepWeight / fetex::silmap_steps(format) + height,
+                  on_edge_steps / fetex::silmap_steps(format));
     for (const CellChord& c : drawing.chords)
         scan.add(c);
     return scan.best().value_or(at(on_edge));

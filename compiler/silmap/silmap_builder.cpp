@@ -142,11 +142,13 @@ void finish(const SilmapOptions& options, SilmapBuild& build) {
     build.stats.gpu_bytes = fetex::silmap_gpu_bytes(build.texture);
 }
 
-/// What chords may miss edges by, cells. Where points are only settled: as with cells of 8 bits; by samples: a quarter
-/// of the way from one to the next.
-double chord_of(fetex::SilmapCellFormat format, Fit how) {
-    if (how == Fit::Sampled) return 1.0 / (4 * CellSamples::kColumns);
-    return budget::kSilmapChord / fetex::silmap_steps(how == Fit::Thorough ? format : fetex::SilmapCellFormat::Bits8);
+/// Where points are only settled, chords are as with cells of 8 bits; by samples: a quarter of the way from one to the
+/// next, and seeds aren't sought for long.
+CellReading reading_of(fetex::SilmapCellFormat format, Fit how) {
+    constexpr double near_enough = 1.0 / 16;
+    if (how == Fit::Sampled) return {format, 1.0 / (4 * CellSamples::kColumns), near_enough};
+    const auto chords = how == Fit::Thorough ? format : fetex::SilmapCellFormat::Bits8;
+    return {format, budget::kSilmapChord / fetex::silmap_steps(chords), 0};
 }
 
 } // namespace
@@ -161,9 +163,8 @@ Result<SilmapBuild> compile_silmap(const Scene& scene, const SilmapOptions& opti
     if (progress) progress("silmap", 0);
     const Fit how = fit_of(options, map.value());
     const bool lends = how == Fit::Thorough && options.lend;
-    std::optional<ReadCells> drawing =
-        read_cells(map.value(), scene, compositor, options.cell_format, chord_of(options.cell_format, how), lends,
-                   options.threads, options.skip, build.report.planar);
+    std::optional<ReadCells> drawing = read_cells(map.value(), scene, compositor, reading_of(options.cell_format, how),
+                                                  lends, options.threads, options.skip, build.report.planar);
     if (!drawing) return inconsistent();
     SilmapCells& cells = drawing->cells;
     if (progress) progress("silmap", 0.5);
@@ -191,8 +192,8 @@ Result<SilmapBuild> compile_silmap(const FeaturedImage& picture, const SilmapOpt
     if (!map) return map.error();
     const Fit fitting = fit_of(options, map.value());
     std::optional<SilmapCells> cells =
-        read_feature_cells(map.value(), picture.features, options.cell_format, chord_of(options.cell_format, fitting),
-                           options.threads, options.skip, build.report.planar);
+        read_feature_cells(map.value(), picture.features, reading_of(options.cell_format, fitting), options.threads,
+                           options.skip, build.report.planar);
     if (!cells) return inconsistent();
     fit(*cells, options, fitting, build.stats);
     write_cells(*cells, {}, options, build);

@@ -88,7 +88,7 @@ struct Fitted {
         PlanarStats stats;
         const auto map = PlanarMap::build(scene, make_cell_grid(scene.extent, texels.width, texels.height), 0, stats);
         compositor = std::make_unique<Compositor>(scene);
-        cells = read_cells(map.value(), scene, *compositor, format, 0x1p-12, false, 0, {}, stats)->cells;
+        cells = read_cells(map.value(), scene, *compositor, {format, 0x1p-12}, false, 0, {}, stats)->cells;
         link_cells(cells, 0);
         fit_points(cells, format, true, 0);
     }
