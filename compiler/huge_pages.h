@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -20,6 +21,7 @@ constexpr std::size_t huge_pages_of(std::size_t bytes) {
 
 /// Memory that starts with its huge pages, if the system gives any; throws std::bad_alloc.
 inline void* allocate_in_huge_pages(std::size_t bytes) {
+    if (bytes > static_cast<std::size_t>(PTRDIFF_MAX) - kHugePage) throw std::bad_alloc();
     const std::size_t huge = huge_pages_of(bytes) * kHugePage, whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
     void* p = std::aligned_alloc(kHugePage, whole);
     if (p == nullptr) throw std::bad_alloc();
