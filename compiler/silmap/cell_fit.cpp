@@ -30,8 +30,8 @@ std::span<const std::int64_t> settling_strides_of(fetex::SilmapCellFormat format
 
 /// Of settling by samples, which tell no finer.
 std::span<const std::int64_t> sampled_strides_of(fetex::SilmapCellFormat format) {
-    static constexpr std::int64_t all[] = {16, 4, 1};
-    return format == fetex::SilmapCellFormat::Bits8 ? std::span(all).last(1) : std::span(all).first(2);
+    static constexpr std::int64_t all[] = {16, 8, 4, 1};
+    return format == fetex::SilmapCellFormat::Bits8 ? std::span(all).last(1) : std::span(all).first(3);
 }
 
 /// Of samples: an 8-bit point goes an eighth of a cell or not at all, and must not be led astray.

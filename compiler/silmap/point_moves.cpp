@@ -209,9 +209,11 @@ double PointMoves::settle_once(SilmapCellData& c, std::span<const std::int64_t> 
         return there.x * static_cast<double>(ahead.x) + there.y * static_cast<double>(ahead.y) > 0;
     };
     std::int64_t x = c.x, y = c.y;
-    for (const std::int64_t stride : strides) {
-        while (goes_on(x + stride * ahead.x, y + stride * ahead.y))
+    std::int64_t most = steps_;
+    for (const std::int64_t stride : strides) { // the last of the stride before has failed
+        for (most /= stride; most > 0 && goes_on(x + stride * ahead.x, y + stride * ahead.y); --most)
             x += stride * ahead.x, y += stride * ahead.y;
+        most = stride - 1;
     }
     Trial best;
     best.gain = budget::kSilmapWorthAMove;

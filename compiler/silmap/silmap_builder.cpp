@@ -143,10 +143,12 @@ void finish(const SilmapOptions& options, SilmapBuild& build) {
 }
 
 /// Where points are only settled, chords are as with cells of 8 bits; by samples: a quarter of the way from one to the
-/// next, and seeds aren't sought for long.
+/// next, and seeds of 16 bits aren't sought for long.
 CellReading reading_of(fetex::SilmapCellFormat format, Fit how) {
-    constexpr double near_enough = 1.0 / 16;
-    if (how == Fit::Sampled) return {format, 1.0 / (4 * CellSamples::kColumns), near_enough};
+    constexpr double near_enough = 1.0 / 4;
+    if (how == Fit::Sampled) {
+        return {format, 1.0 / (4 * CellSamples::kColumns), format == fetex::SilmapCellFormat::Bits16 ? near_enough : 0};
+    }
     const auto chords = how == Fit::Thorough ? format : fetex::SilmapCellFormat::Bits8;
     return {format, budget::kSilmapChord / fetex::silmap_steps(chords), 0};
 }
