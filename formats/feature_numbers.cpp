@@ -50,10 +50,23 @@ std::uint32_t load(const FeatureCurvesTexture& t, ByteSpan numbers, std::uint64_
     return load_le<std::uint16_t>(numbers, n * 2);
 }
 
+/// Below 2^31 in amount; the processor's own rounding is towards 0.
+double floor_of(double v) {
+    const auto towards_zero = static_cast<double>(static_cast<std::int32_t>(v));
+    return towards_zero > v ? towards_zero - 1 : towards_zero;
+}
+
 void store(const FeatureCurvesTexture& t, std::vector<std::uint8_t>& numbers, std::uint64_t n, std::uint32_t packed) {
     const std::uint32_t size = feature_number_bytes(t.format);
     for (std::uint32_t k = 0; k < size; ++k)
         numbers[n * size + k] = static_cast<std::uint8_t>(packed >> (8 * k));
+}
+
+/// The same bytes over and over.
+void fill(std::vector<std::uint8_t>& numbers, std::size_t group) {
+    for (std::size_t done = group; done < numbers.size(); done *= 2) // what is there already
+        std::copy_n(numbers.begin(), std::min(done, numbers.size() - done),
+                    numbers.begin() + static_cast<std::ptrdiff_t>(done));
 }
 
 /// The number of a north or west edge's position; the angle's, if any, is the next.
@@ -69,7 +82,7 @@ constexpr std::uint32_t kHalfSign = 0x8000;
 std::uint32_t feature_pack_number(FeatureNumberFormat format, FeatureQuantity quantity, double value, float limit) {
     const double v = in_range(quantity, value, limit);
     if (format == FeatureNumberFormat::Bits16) {
-        const double steps = std::floor(v / step_of(quantity, limit) + 0.5);
+        const double steps = floor_of(v / step_of(quantity, limit) + 0.5);
         // Angles: what rounds up to π is 0. Gradients: two's complement.
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(steps)) & 0xffffu;
     }
@@ -98,17 +111,16 @@ FeatureCurvesTexture feature_empty_texture(std::uint32_t width, std::uint32_t he
     FeatureCurvesTexture t;
     t.width = width, t.height = height, t.format = format, t.linear = linear, t.distance_limit = distance_limit;
     t.configurations.resize(std::uint64_t{width} * height);
-    t.signatures.resize(feature_corner_count(t) * feature_signature_numbers(linear) * feature_number_bytes(format));
-    t.distances.resize(feature_corner_count(t) * feature_number_bytes(format));
+    const std::size_t bytes = feature_number_bytes(format), group = feature_signature_numbers(linear) * bytes;
+    t.signatures.resize(feature_corner_count(t) * group);
+    t.distances.resize(feature_corner_count(t) * bytes);
     t.base = {0xffffffffu};
     t.profile.resize(2);
-    for (std::uint32_t j = 0; j <= height; ++j) {
-        for (std::uint32_t i = 0; i <= width; ++i) {
-            feature_set_crossing(t, i, j, FeatureEdge::North, {});
-            feature_set_crossing(t, i, j, FeatureEdge::West, {});
-            feature_set_distance(t, i, j, distance_limit);
-        }
-    }
+    feature_set_crossing(t, 0, 0, FeatureEdge::North, {});
+    feature_set_crossing(t, 0, 0, FeatureEdge::West, {});
+    feature_set_distance(t, 0, 0, distance_limit);
+    fill(t.signatures, group);
+    fill(t.distances, bytes);
     return t;
 }
 

@@ -7,6 +7,7 @@
 #include "compiler/diagnostics.h"
 #include "compiler/error_budget.h"
 #include "compiler/feature_curves/plane.h"
+#include "compiler/parallel.h"
 
 namespace fetexc {
 namespace {
@@ -15,13 +16,18 @@ using fetex::FeatureEdge;
 using fetex::FeaturePoint;
 using enum fetex::FeatureEdge;
 
+constexpr std::size_t kRows = 16; ///< for a thread at a time
+
 /// A texel's points where they came to be.
 class TexelPoints {
   public:
-    TexelPoints(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j) : curves_(curves), i_(i), j_(j) {}
+    TexelPoints(const SnappedCurves& curves, std::uint32_t i, std::uint32_t j)
+        : positions_{curves.position(i, j, North), curves.position(i, j, East), curves.position(i, j, South),
+                     curves.position(i, j, West)},
+          points_{FeaturePoint{positions_[0], 0}, {1, positions_[1]}, {positions_[2], 1}, {0, positions_[3]}} {}
 
-    [[nodiscard]] double position(FeatureEdge e) const { return curves_.position(i_, j_, e); }
-    [[nodiscard]] FeaturePoint at(FeatureEdge e) const { return fetex::feature_point(e, position(e)); }
+    [[nodiscard]] double position(FeatureEdge e) const { return positions_[fetex::feature_edge_index(e)]; }
+    [[nodiscard]] FeaturePoint at(FeatureEdge e) const { return points_[fetex::feature_edge_index(e)]; }
     [[nodiscard]] Chord chord(std::uint32_t segment) const {
         const fetex::FeatureSegment s = fetex::kFeatureSegments[segment];
         return {at(s.first), at(s.second)};
@@ -31,8 +37,8 @@ class TexelPoints {
     }
 
   private:
-    const SnappedCurves& curves_;
-    std::uint32_t i_, j_;
+    std::array<double, 4> positions_; ///< by feature_edge_index
+    std::array<FeaturePoint, 4> points_;
 };
 
 class Measure {
@@ -59,21 +65,15 @@ class Measure {
         f.vertices = std::max(f.vertices, most.ends), f.detour = std::max(f.detour, most.detour);
     }
 
-    std::vector<FeatureMove> run() {
+    std::vector<FeatureMove> run(unsigned threads) {
         std::ranges::sort(found_, {}, &Found::texel);
+        std::vector<std::vector<FeatureMove>> parts((curves_.height + kRows - 1) / kRows);
+        parallel_for_chunks(curves_.height, kRows, threads, [&](std::size_t begin, std::size_t end) {
+            parts[begin / kRows] = moves_in(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+        });
         std::vector<FeatureMove> moves;
-        std::size_t next = 0;
-        for (std::uint32_t j = 0; j < curves_.height; ++j) {
-            for (std::uint32_t i = 0; i < curves_.width; ++i) {
-                Found all;
-                for (; next < found_.size() && found_[next].texel == index(i, j); ++next)
-                    all.add(found_[next]);
-                const SnappedTexel& t = curves_.texels[index(i, j)];
-                if (t.inserted == 0 && all.kinds == 0) continue;
-                const FeatureMove move = move_of(i, j, t, all);
-                if (move.kinds != 0) moves.push_back(move);
-            }
-        }
+        for (const std::vector<FeatureMove>& part : parts)
+            moves.insert(moves.end(), part.begin(), part.end());
         return moves;
     }
 
@@ -92,6 +92,24 @@ class Measure {
 
     [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j) const {
         return std::size_t{j} * curves_.width + i;
+    }
+
+    /// In rows first … last − 1.
+    [[nodiscard]] std::vector<FeatureMove> moves_in(std::uint32_t first, std::uint32_t last) const {
+        std::vector<FeatureMove> moves;
+        auto next = std::ranges::lower_bound(found_, index(0, first), {}, &Found::texel);
+        for (std::uint32_t j = first; j < last; ++j) {
+            for (std::uint32_t i = 0; i < curves_.width; ++i) {
+                Found all;
+                for (; next != found_.end() && next->texel == index(i, j); ++next)
+                    all.add(*next);
+                const SnappedTexel& t = curves_.texels[index(i, j)];
+                if (t.inserted == 0 && all.kinds == 0) continue;
+                const FeatureMove move = move_of(i, j, t, all);
+                if (move.kinds != 0) moves.push_back(move);
+            }
+        }
+        return moves;
     }
 
     /// Of a knot's lines from its shape: how far their ends are, beyond where edges' points went, and what more it
@@ -137,12 +155,14 @@ class Measure {
                                       const Found& f) const {
         const TexelPoints t(curves_, i, j);
         double merged = 0, rerouted = 0;
+        const unsigned edges = edges_of(texel.segments) | f.edges;
         for (const FeatureEdge e : fetex::kFeatureEdges)
-            if ((edges_of(texel.segments) | f.edges) >> fetex::feature_edge_index(e) & 1u)
+            if (edges >> fetex::feature_edge_index(e) & 1u)
                 merged = std::max(merged, points_.at(i, j, e).move(t.position(e)));
-        const auto replaced = static_cast<SegmentSet>(texel.inserted & ~texel.segments);
-        for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
-            if (replaced >> k & 1u) rerouted = std::max(rerouted, detour(k, texel.segments, t));
+        const unsigned replaced = texel.inserted & ~unsigned{texel.segments};
+        for (unsigned left = replaced; left != 0; left &= left - 1)
+            rerouted =
+                std::max(rerouted, detour(static_cast<std::uint32_t>(std::countr_zero(left)), texel.segments, t));
         const unsigned kinds = f.kinds | kEdgeMerged * unsigned{merged > 0} | kRerouted * unsigned{replaced != 0};
         return {i, j, static_cast<std::uint8_t>(kinds), std::max(merged, f.vertices) + f.detour + rerouted};
     }
@@ -171,11 +191,11 @@ std::uint8_t missing_kind(const ShownKnot& k) {
 }
 
 std::vector<FeatureMove> measure_moves(const SnappedCurves& curves, const EdgePoints& points,
-                                       const std::vector<ShownKnot>& knots) {
+                                       const std::vector<ShownKnot>& knots, unsigned threads) {
     Measure measure(curves, points);
     for (const ShownKnot& k : knots)
         measure.knot(k);
-    return measure.run();
+    return measure.run(threads);
 }
 
 std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves) {

@@ -20,8 +20,8 @@ struct ShownKnot {
 /// kEndCut, kFolded, kLostInside, or 0: a segment shows the knot.
 std::uint8_t missing_kind(const ShownKnot& k);
 
-/// `curves` without its moves.
+/// `curves` without its moves; on `threads` threads (0: all), with the same result for any number.
 std::vector<FeatureMove> measure_moves(const SnappedCurves& curves, const EdgePoints& points,
-                                       const std::vector<ShownKnot>& knots);
+                                       const std::vector<ShownKnot>& knots, unsigned threads);
 
 } // namespace fetexc

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "compiler/parallel.h"
 #include "formats/feature_curves.h"
 
 namespace fetexc {
@@ -42,33 +43,45 @@ struct EdgeDirection {
     }
 };
 
-/// Something for every edge of the grid.
+/// Of an EdgeGrid: where it is in memory.
+template <class T> struct EdgeView {
+    T* edges = nullptr;
+    std::size_t columns = 0;
+
+    /// Of texel (i,j).
+    [[nodiscard]] T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        using enum fetex::FeatureEdge;
+        const std::size_t column = i + (e == East ? 1u : 0u), row = j + (e == South ? 1u : 0u);
+        return edges[2 * (row * columns + column) + (e == East || e == West ? 1u : 0u)];
+    }
+};
+
+/// Something for every edge of the grid, row by row.
 template <class T> class EdgeGrid {
   public:
     EdgeGrid() = default;
+    /// Unwritten: see reset_rows.
     EdgeGrid(std::uint32_t width, std::uint32_t height)
-        : tiles_(width / kTile + 1), points_(std::size_t{tiles_} * (height / kTile + 1) * kTile * kTile * 2) {}
+        : columns_(std::size_t{width} + 1), edges_((std::size_t{height} + 1) * columns_ * 2) {}
 
-    [[nodiscard]] bool empty() const { return points_.empty(); }
+    /// Edges that begin in rows first … last − 1 of corners, 0 … height, as nothing has crossed them. Threads may do
+    /// this at once for different rows.
+    void reset_rows(std::size_t first, std::size_t last) {
+        const auto row = [&](std::size_t j) { return edges_.begin() + static_cast<std::ptrdiff_t>(2 * j * columns_); };
+        std::fill(row(first), row(last), T{});
+    }
+
+    [[nodiscard]] bool empty() const { return edges_.empty(); }
+    [[nodiscard]] EdgeView<T> view() { return {edges_.data(), columns_}; }
     /// Of texel (i,j).
-    [[nodiscard]] T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) { return points_[index(i, j, e)]; }
+    [[nodiscard]] T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) { return view().at(i, j, e); }
     [[nodiscard]] const T& at(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
-        return points_[index(i, j, e)];
+        return EdgeView<const T>{edges_.data(), columns_}.at(i, j, e);
     }
 
   private:
-    [[nodiscard]] std::size_t index(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
-        using enum fetex::FeatureEdge;
-        const std::size_t column = i + (e == East ? 1u : 0u), row = j + (e == South ? 1u : 0u);
-        const std::size_t tile = row / kTile * tiles_ + column / kTile;
-        return 2 * (tile * kTile * kTile + row % kTile * kTile + column % kTile) + (e == East || e == West ? 1u : 0u);
-    }
-
-    /// Texels a side of what lies together: of points 64 bytes each, a page of memory. Steep lines would touch a page a
-    /// texel.
-    static constexpr std::size_t kTile = 8;
-    std::size_t tiles_ = 0; ///< in a row
-    std::vector<T> points_;
+    std::size_t columns_ = 0;
+    UnwrittenVector<T> edges_;
 };
 
 using EdgePoints = EdgeGrid<EdgePoint>;

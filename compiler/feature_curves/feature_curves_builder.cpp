@@ -10,6 +10,7 @@
 #include "compiler/diagnostics.h"
 #include "compiler/feature_curves/curve_texture.h"
 #include "compiler/feature_curves/feature_samples.h"
+#include "compiler/parallel.h"
 #include "compiler/scene/lattice.h"
 #include "formats/bitmap_samples.h"
 #include "formats/fbt_mip.h"
@@ -22,6 +23,7 @@ using fetex::FeatureCurvesTexture;
 using fetex::FeatureKind;
 
 constexpr std::uint32_t kMaxSide = 16384;
+constexpr std::size_t kRows = 16;       ///< of corners, for a thread at a time
 constexpr double kMostDistance = 65504; ///< texels: what the format takes
 
 /// Of the curves: what most of them ask for, the first of equals; none: the preset crease.
@@ -72,7 +74,7 @@ Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions
     if (makes_linear(network, options)) {
         auto lines = lattice_lines(network, size.width, size.height);
         if (!lines) return lines.error();
-        return snap_lines(lines.value(), size.width, size.height);
+        return snap_lines(lines.value(), size.width, size.height, options.threads);
     }
     auto curves = lattice_curves(network);
     if (!curves) return curves.error();
@@ -83,7 +85,7 @@ Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions
 FeatureCurvesTexture write_curves(const SnappedCurves& curves, bool linear, const FeatureCurvesOptions& options,
                                   double limit, FeatureCurvesBuild& build) {
     const auto most = static_cast<float>(std::min(limit, kMostDistance));
-    if (linear) return linear_texture(curves, options.numbers, most);
+    if (linear) return linear_texture(curves, options.numbers, most, options.threads);
     QuadraticTexture written = quadratic_texture(curves, options.numbers, most);
     build.stats.flat = written.flat, build.stats.straightened_by_rounding = written.straightened;
     for (Diagnostic& d : rounding_diagnostics(written))
@@ -107,16 +109,23 @@ void count(const SnappedCurves& curves, const DistanceMap& map, FeatureCurvesBui
 
 /// The distances are those of the curves as the texture has them.
 DistanceMap add_distances(const FeatureCurvesOptions& options, FeatureCurvesTexture& t) {
-    DistanceMap map = distance_map(TextureSegments(t), static_cast<double>(t.distance_limit), options.threads);
-    if (t.kind == FeatureKind::Normal) smooth_gradients(map, t, options.smooth, options.threads);
-    std::size_t at = 0;
-    for (std::uint32_t j = 0; j <= t.height; ++j) {
-        for (std::uint32_t i = 0; i <= t.width; ++i, ++at) {
-            fetex::feature_set_distance(t, i, j, map.distances[at]);
-            if (t.kind == FeatureKind::Normal)
-                fetex::feature_set_gradient(t, i, j, {map.gradients[at].x, map.gradients[at].y});
-        }
+    const unsigned threads = options.threads;
+    DistanceMap map = distance_map(TextureSegments(t, threads), static_cast<double>(t.distance_limit), threads);
+    const bool gradients = t.kind == FeatureKind::Normal;
+    if (gradients) {
+        smooth_gradients(map, t, options.smooth, threads);
+        fetex::feature_set_gradient(t, 0, 0, {}); // makes room
     }
+    parallel_for_chunks(std::size_t{t.height} + 1, kRows, threads, [&](std::size_t begin, std::size_t end) {
+        std::size_t at = begin * (std::size_t{t.width} + 1);
+        for (std::size_t j = begin; j < end; ++j) {
+            for (std::uint32_t i = 0; i <= t.width; ++i, ++at) {
+                const auto row = static_cast<std::uint32_t>(j);
+                fetex::feature_set_distance(t, i, row, map.distances[at]);
+                if (gradients) fetex::feature_set_gradient(t, i, row, {map.gradients[at].x, map.gradients[at].y});
+            }
+        }
+    });
     return map;
 }
 

@@ -15,60 +15,89 @@ constexpr double kStep = 0.5;     ///< part of the way to the mean
 /// The corners that a corner is smoothed with.
 enum NeighbourBit : std::uint8_t { kLeft = 1, kRight = 2, kAbove = 4, kBelow = 8 };
 
+/// Both numbers of a gradient at a time, each rounded as if alone.
+using Pair [[gnu::vector_size(16)]] = double;
+static_assert(sizeof(Pair) == sizeof(DistanceGradient));
+
+Pair load(const DistanceGradient& g) { return Pair{g.x, g.y}; }
+
+/// Of the corner itself, and of each of the four; those not joined are replaced by the corner itself.
+struct Weights {
+    double itself = 1, share = 0;
+};
+constexpr std::array<Weights, 16> kWeights = [] { // by NeighbourBits
+    std::array<Weights, 16> all{};
+    for (unsigned joined = 1; joined < all.size(); ++joined) {
+        const int count = std::popcount(joined);
+        const double share = kStep / count;
+        all[joined] = {1 - kStep - (4 - count) * share, share};
+    }
+    return all;
+}();
+
 class Smoother {
   public:
-    Smoother(const DistanceMap& map, const fetex::FeatureCurvesTexture& texture)
-        : map_(map), columns_(std::size_t{map.width} + 1), rows_(std::size_t{map.height} + 1),
+    Smoother(const DistanceMap& map, const fetex::FeatureCurvesTexture& texture, unsigned threads)
+        : map_(map), texture_(texture), columns_(std::size_t{map.width} + 1), rows_(std::size_t{map.height} + 1),
           neighbours_(columns_ * rows_) {
-        for (std::size_t j = 0; j < rows_; ++j)
+        for_rows(threads, [&](std::size_t j) {
             for (std::size_t i = 0; i < columns_; ++i)
-                join(i, j, texture);
+                neighbours_[j * columns_ + i] = neighbours_of(i, j);
+        });
     }
 
-    /// Without branches, which no processor could foresee: what isn't joined is replaced by the corner itself.
-    void smooth_row(const std::vector<DistanceGradient>& from, std::vector<DistanceGradient>& to, std::size_t j) const {
-        static constexpr std::array<double, 5> kShare = {0, kStep, kStep / 2, kStep / 3, kStep / 4};
+    /// visit(row) for all rows of corners.
+    template <class Visit> void for_rows(unsigned threads, const Visit& visit) const {
+        parallel_for_chunks(rows_, kRows, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t j = begin; j < end; ++j)
+                visit(j);
+        });
+    }
+
+    /// Without branches, which no processor could foresee.
+    void smooth_row(const DistanceGradient* from, DistanceGradient* to, std::size_t j) const {
         for (std::size_t at = j * columns_; at < (j + 1) * columns_; ++at) {
             const unsigned joined = neighbours_[at];
-            const auto count = static_cast<std::size_t>(std::popcount(joined));
-            const DistanceGradient &g = from[at], &left = from[at - (joined & 1u)],
-                                   &right = from[at + (joined >> 1 & 1u)],
-                                   &above = from[at - columns_ * (joined >> 2 & 1u)],
-                                   &below = from[at + columns_ * (joined >> 3 & 1u)];
-            const double share = kShare[count],
-                         itself = (count > 0 ? 1 - kStep : 1) - static_cast<double>(4 - count) * share;
-            to[at] = {itself * g.x + share * (left.x + right.x + above.x + below.x),
-                      itself * g.y + share * (left.y + right.y + above.y + below.y)};
+            const Pair g = load(from[at]), left = load(from[at - (joined & 1u)]),
+                       right = load(from[at + (joined >> 1 & 1u)]),
+                       above = load(from[at - columns_ * (joined >> 2 & 1u)]),
+                       below = load(from[at + columns_ * (joined >> 3 & 1u)]);
+            const auto [itself, share] = kWeights[joined];
+            const Pair smooth = itself * g + share * (left + right + above + below);
+            to[at] = {smooth[0], smooth[1]};
         }
     }
 
   private:
-    /// A point of a curve on the north (west) edge of texel (i,j) is the south (east) edge's of the texel before.
-    static bool has_point(const fetex::FeatureCurvesTexture& t, std::size_t i, std::size_t j, fetex::FeatureEdge e) {
-        const auto ends = [&](std::size_t x, std::size_t y, fetex::FeatureEdge on) {
-            if (x >= t.width || y >= t.height) return false; // before the first: beyond the largest number
-            const EdgeSet edges = edges_of(segment_set(t.configurations[y * t.width + x]));
-            return (edges >> fetex::feature_edge_index(on) & 1u) != 0;
-        };
-        using enum fetex::FeatureEdge;
-        return e == North ? ends(i, j, North) || ends(i, j - 1, South) : ends(i, j, West) || ends(i - 1, j, East);
+    [[nodiscard]] bool ends(std::size_t i, std::size_t j, fetex::FeatureEdge on) const {
+        if (i >= texture_.width || j >= texture_.height) return false; // before the first: beyond the largest number
+        const EdgeSet edges = edges_of_configuration(texture_.configurations[j * texture_.width + i]);
+        return (edges >> fetex::feature_edge_index(on) & 1u) != 0;
     }
-
-    /// With the corner to the right and that below.
-    void join(std::size_t i, std::size_t j, const fetex::FeatureCurvesTexture& texture) {
-        const std::size_t at = j * columns_ + i;
-        const auto near = [&](std::size_t corner) { return map_.distances[corner] < map_.limit; };
-        const auto set = [&](std::size_t corner, NeighbourBit bit) {
-            neighbours_[corner] = static_cast<std::uint8_t>(neighbours_[corner] | bit);
-        };
-        if (!near(at)) return;
-        if (i + 1 < columns_ && near(at + 1) && !has_point(texture, i, j, fetex::FeatureEdge::North))
-            set(at, kRight), set(at + 1, kLeft);
-        if (j + 1 < rows_ && near(at + columns_) && !has_point(texture, i, j, fetex::FeatureEdge::West))
-            set(at, kBelow), set(at + columns_, kAbove);
+    [[nodiscard]] bool near(std::size_t i, std::size_t j) const {
+        return i < columns_ && j < rows_ && map_.distances[j * columns_ + i] < map_.limit;
+    }
+    /// With the corner to the right, and with that below: no point of a curve between them. A point on the north (west)
+    /// edge of texel (i,j) is the south (east) edge's of the texel before.
+    [[nodiscard]] bool joined_right(std::size_t i, std::size_t j) const {
+        using enum fetex::FeatureEdge;
+        return near(i, j) && near(i + 1, j) && !ends(i, j, North) && !ends(i, j - 1, South);
+    }
+    [[nodiscard]] bool joined_below(std::size_t i, std::size_t j) const {
+        using enum fetex::FeatureEdge;
+        return near(i, j) && near(i, j + 1) && !ends(i, j, West) && !ends(i - 1, j, East);
+    }
+    [[nodiscard]] std::uint8_t neighbours_of(std::size_t i, std::size_t j) const {
+        unsigned bits = 0;
+        if (joined_right(i - 1, j)) bits |= kLeft;
+        if (joined_right(i, j)) bits |= kRight;
+        if (joined_below(i, j - 1)) bits |= kAbove;
+        if (joined_below(i, j)) bits |= kBelow;
+        return static_cast<std::uint8_t>(bits);
     }
 
     const DistanceMap& map_;
+    const fetex::FeatureCurvesTexture& texture_;
     std::size_t columns_, rows_;
     std::vector<std::uint8_t> neighbours_; ///< by corner: NeighbourBits
 };
@@ -77,13 +106,10 @@ class Smoother {
 
 void smooth_gradients(DistanceMap& map, const fetex::FeatureCurvesTexture& texture, std::uint32_t iterations,
                       unsigned threads) {
-    const Smoother smoother(map, texture);
+    const Smoother smoother(map, texture, threads);
     std::vector<DistanceGradient> next(map.gradients.size());
     for (std::uint32_t k = 0; k < iterations; ++k) {
-        parallel_for_chunks(std::size_t{map.height} + 1, kRows, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t j = begin; j < end; ++j)
-                smoother.smooth_row(map.gradients, next, j);
-        });
+        smoother.for_rows(threads, [&](std::size_t j) { smoother.smooth_row(map.gradients.data(), next.data(), j); });
         map.gradients.swap(next);
     }
 }

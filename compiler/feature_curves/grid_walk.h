@@ -34,9 +34,11 @@ struct GridCrossing {
     bool increasing = true; ///< to the right, or down
 };
 
-/// base + (k-th grid line − start)·delta/length as a whole number and a rest, step by step, exact.
+/// A coordinate where a line crosses grid lines across the other axis, base + (grid line − start)·delta/length, as a
+/// whole number, from the beginning of the line's cell on, and a rest; step by step, exact.
 class GridSteps {
   public:
+    GridSteps() = default;
     /// distance: from the start to the first grid line, along the line's way; length > 0; pitch: between grid lines.
     GridSteps(std::int64_t base, std::int64_t distance, std::int64_t pitch, std::int64_t delta, std::int64_t length)
         : length_(length), part_(1 / static_cast<double>(length)) {
@@ -49,16 +51,20 @@ class GridSteps {
         whole_ += step_whole_, rest_ += step_rest_;
         if (rest_ >= length_) rest_ -= length_, ++whole_;
     }
+    /// The cell begins so much later.
+    void shift(std::int64_t by) { whole_ -= by; }
 
-    /// Sign of the coordinate minus v.
-    [[nodiscard]] int compare(std::int64_t v) const {
-        if (whole_ != v) return whole_ < v ? -1 : 1;
-        return rest_ > 0 ? 1 : 0;
+    [[nodiscard]] bool below(std::int64_t v) const { return whole_ < v; }
+    [[nodiscard]] bool above(std::int64_t v) const { return whole_ > v || (whole_ == v && rest_ > 0); }
+
+    /// grid_cell of the coordinate, before any shift.
+    [[nodiscard]] std::int32_t cell(std::int64_t pitch, std::uint32_t count) const {
+        return grid_cell(above(pitch * count) ? pitch * count + 1 : whole_, pitch, count);
     }
 
-    /// Part of the cell that begins at `origin`.
-    [[nodiscard]] double position(std::int64_t origin, std::int64_t pitch) const {
-        return (static_cast<double>(whole_ - origin) + static_cast<double>(rest_) * part_) / static_cast<double>(pitch);
+    /// Part of the cell.
+    [[nodiscard]] double position(std::int64_t pitch) const {
+        return (static_cast<double>(whole_) + static_cast<double>(rest_) * part_) / static_cast<double>(pitch);
     }
 
   private:
@@ -74,55 +80,95 @@ class GridSteps {
         if (rest < 0) rest += length_, --whole;
     }
 
-    std::int64_t length_;
-    double part_; ///< 1 / length
+    std::int64_t length_ = 1;
+    double part_ = 1; ///< 1 / length
     std::int64_t whole_ = 0, rest_ = 0, step_whole_ = 0, step_rest_ = 0;
+};
+
+/// Along one axis, from and to which cell.
+struct CellRange {
+    std::int32_t from = 0, to = 0;
 };
 
 /// The grid lines across one axis, in the order in which a line gets to them.
 struct GridLines {
-    std::int32_t next = 0, left = 0, step = 1; ///< the next one, how many remain
+    std::int32_t next = 0, left = 0; ///< the next one, how many remain
+    bool increasing = true;
     GridSteps at;
 
-    /// Of the lines that cross `axis` coordinates from a to b; the other coordinate begins at `base` and changes by
-    /// `delta`.
-    GridLines(std::int64_t a, std::int64_t b, std::int64_t pitch, std::uint32_t count, std::int64_t base,
-              std::int64_t delta)
-        : at(0, 0, 0, 0, 1) {
-        const std::int32_t from = grid_cell(a, pitch, count), to = grid_cell(b, pitch, count);
+    /// Of the lines between cells of a line whose `axis` coordinates go from a to b; the other coordinate begins at
+    /// `base` and changes by `delta`.
+    GridLines(CellRange cells, std::int64_t a, std::int64_t b, std::int64_t pitch, std::int64_t base,
+              std::int64_t delta) {
+        const auto [from, to] = cells;
         if (from == to) return;
-        step = from < to ? 1 : -1, left = from < to ? to - from : from - to, next = from < to ? from + 1 : from;
+        increasing = from < to, left = increasing ? to - from : from - to, next = increasing ? from + 1 : from;
         const std::int64_t length = a < b ? b - a : a - b, first = pitch * next;
         at = GridSteps(base, a < b ? first - a : a - first, pitch, delta, length);
     }
-    void advance() { next += step, --left, at.advance(); }
 };
 
-/// visit(GridCrossing) for every grid line that the line from a to b crosses, in order.
-template <class Visit> void walk_grid(const Grid& grid, PlanarPoint a, PlanarPoint b, Visit&& visit) {
-    GridLines across(a.x, b.x, grid.px, grid.width, a.y, b.y - a.y);
-    GridLines along(a.y, b.y, grid.py, grid.height, a.x, b.x - a.x);
-    std::int32_t column = grid_cell(a.x, grid.px, grid.width), row = grid_cell(a.y, grid.py, grid.height);
-    const bool down = b.y > a.y;
-    const auto cross_horizontal = [&] {
-        visit(GridCrossing{false, along.next, column, along.at.position(grid.px * column, grid.px), down});
-        row += along.step;
-        along.advance();
+/// Rows first … last − 1.
+struct GridRows {
+    std::int32_t first = 0, last = 0;
+
+    [[nodiscard]] bool has(std::int32_t row) const { return first <= row && row < last; }
+};
+
+/// Where a line enters, and the grid lines that it crosses from there on.
+struct GridWay {
+    std::int32_t column = 0, row = 0;
+    GridLines across, along; ///< vertical and horizontal ones
+    bool leaves = false;     ///< the last of `along` is the last of all
+};
+
+/// The walk of walk_rows, its directions known where it is compiled.
+template <bool Right, bool Down, class Visit> Visit walk_way(const Grid& grid, GridWay way, Visit visit) {
+    constexpr std::int32_t kAcross = Right ? 1 : -1, kAlong = Down ? 1 : -1;
+    auto& [column, row, across, along, leaves] = way;
+    across.at.shift(grid.py * row), along.at.shift(grid.px * column);
+    const std::int64_t border = Down ? grid.py : 0; // of the row, where the line leaves it
+    // At a corner of the grid (see above): to the right, the vertical line is first, but for the border.
+    const auto horizontal_first = [&] {
+        if (along.left == 0 || across.left == 0) return across.left == 0;
+        if (Down ? across.at.below(border) : across.at.above(border)) return false;
+        const bool corner = Down ? !across.at.above(border) : !across.at.below(border);
+        return !corner || Right == (across.next == static_cast<std::int32_t>(grid.width));
     };
-    while (across.left > 0) {
-        // At a corner of the grid (see above): to the right, the vertical line is first, but for the border.
-        const bool vertical_first = (across.step > 0) != (across.next == static_cast<std::int32_t>(grid.width));
-        while (along.left > 0) {
-            const int side = across.at.compare(grid.py * along.next);
-            if (side == 0 ? vertical_first : (side > 0) != down) break;
-            cross_horizontal();
+    while (along.left > 0 || (across.left > 0 && !leaves)) {
+        if (horizontal_first()) {
+            visit(GridCrossing{false, along.next, column, along.at.position(grid.px), Down});
+            row += kAlong, across.at.shift(kAlong * grid.py);
+            along.next += kAlong, --along.left, along.at.advance();
+        } else {
+            visit(GridCrossing{true, across.next, row, across.at.position(grid.py), Right});
+            column += kAcross, along.at.shift(kAcross * grid.px);
+            across.next += kAcross, --across.left, across.at.advance();
         }
-        visit(GridCrossing{true, across.next, row, across.at.position(grid.py * row, grid.py), across.step > 0});
-        column += across.step;
-        across.advance();
     }
-    while (along.left > 0)
-        cross_horizontal();
+    return visit;
+}
+
+/// visit(GridCrossing) for every grid line that the line from a to b crosses in the rows or on their border, in order:
+/// what walk_grid visits there, bit for bit. Gives `visit` back, as std::for_each does: what a copy knows isn't written
+/// to memory at each step.
+template <class Visit> Visit walk_rows(const Grid& grid, PlanarPoint a, PlanarPoint b, GridRows rows, Visit visit) {
+    const std::int32_t start = grid_cell(a.y, grid.py, grid.height), end = grid_cell(b.y, grid.py, grid.height);
+    const CellRange within{std::clamp(start, rows.first - 1, rows.last), std::clamp(end, rows.first - 1, rows.last)};
+    if (within.from == within.to && !rows.has(within.from)) return visit;
+    const GridLines along(within, a.y, b.y, grid.py, a.x, b.x - a.x);
+    const std::int32_t column =
+        rows.has(start) ? grid_cell(a.x, grid.px, grid.width) : along.at.cell(grid.px, grid.width);
+    const GridLines across({column, grid_cell(b.x, grid.px, grid.width)}, a.x, b.x, grid.px, a.y, b.y - a.y);
+    const GridWay way{column, within.from, across, along, !rows.has(end)};
+    if (across.increasing)
+        return along.increasing ? walk_way<true, true>(grid, way, visit) : walk_way<true, false>(grid, way, visit);
+    return along.increasing ? walk_way<false, true>(grid, way, visit) : walk_way<false, false>(grid, way, visit);
+}
+
+/// visit(GridCrossing) for every grid line that the line from a to b crosses, in order.
+template <class Visit> void walk_grid(const Grid& grid, PlanarPoint a, PlanarPoint b, const Visit& visit) {
+    walk_rows(grid, a, b, {-1, static_cast<std::int32_t>(grid.height) + 1}, visit);
 }
 
 } // namespace fetexc

@@ -5,60 +5,45 @@
 #include <utility>
 
 #include "compiler/feature_curves/curve_displacement.h"
-#include "compiler/feature_curves/curve_walk.h"
+#include "compiler/feature_curves/curve_insertion.h"
 #include "compiler/feature_curves/displacement.h"
 #include "compiler/feature_curves/edge_points.h"
 #include "compiler/feature_curves/fitting.h"
-#include "compiler/feature_curves/grid_walk.h"
 #include "compiler/feature_curves/knots.h"
+#include "compiler/parallel.h"
 
 namespace fetexc {
 namespace {
 
 using fetex::FeatureEdge;
 
-constexpr auto segment_table() {
-    std::array<std::array<std::uint8_t, 4>, 4> table{};
-    for (const FeatureEdge a : fetex::kFeatureEdges)
-        for (const FeatureEdge b : fetex::kFeatureEdges)
-            if (a != b)
-                table[fetex::feature_edge_index(a)][fetex::feature_edge_index(b)] =
-                    static_cast<std::uint8_t>(segment_between(a, b));
-    return table;
-}
-constexpr auto kSegmentBetween = segment_table();
-
-/// Where a line leaves a texel, and where it comes into the next.
-struct Passage {
-    FeatureEdge out{}, in{};
-};
-Passage passage(const GridCrossing& c) {
-    using enum FeatureEdge;
-    if (c.vertical) return c.increasing ? Passage{East, West} : Passage{West, East};
-    return c.increasing ? Passage{South, North} : Passage{North, South};
-}
+constexpr std::size_t kRows = 16; ///< for a thread at a time
 
 class Snapper {
   public:
     /// tangents: whether the texture is to have them.
-    Snapper(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height, bool tangents)
-        : curves_(curves), grid_(make_grid(curves.extent, width, height)), walk_(grid_), points_(width, height),
+    Snapper(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height, bool tangents, unsigned threads)
+        : curves_(curves), grid_(make_grid(curves.extent, width, height)), threads_(threads),
           inside_(curves.vertices.size()), degree_(curves.vertices.size()) {
-        if (tangents) directions_ = EdgeDirections(width, height);
+        InsertedCurves inserted = insert_curves(curves, grid_, tangents, threads);
+        points_ = std::move(inserted.points), directions_ = std::move(inserted.directions);
+        arms_of_ = std::move(inserted.arms);
         out_.width = width, out_.height = height;
-        out_.texels.resize(std::size_t{width} * height);
+        out_.texels = std::move(inserted.texels);
+        out_.stats.crossings = inserted.counts.crossings, out_.stats.segments = inserted.counts.segments;
+        out_.stats.folded = inserted.counts.folded;
     }
 
-    SnappedCurves run(unsigned threads) {
+    SnappedCurves run() {
         for (std::uint32_t k = 0; k < curves_.curves.size(); ++k)
-            insert_curve(k);
+            add_to_knots(k);
         insert_knots();
         settle_points();
         if (directions_.empty()) {
-            out_.moves = measure_moves(out_, points_, knots_);
+            out_.moves = measure_moves(out_, points_, knots_, threads_);
         } else {
             settle_tangents();
-            fit_signatures(out_, threads);
+            fit_signatures(out_, threads_);
             out_.moves = measure_curve_moves({curves_, grid_, points_, knots_}, out_);
         }
         count();
@@ -66,10 +51,7 @@ class Snapper {
     }
 
   private:
-    [[nodiscard]] PlanarPoint planar(std::uint32_t vertex) const {
-        const LatticePoint& p = curves_.vertices[vertex];
-        return {p.x * grid_.kx, p.y * grid_.ky};
-    }
+    [[nodiscard]] PlanarPoint planar(std::uint32_t vertex) const { return planar_point(curves_, grid_, vertex); }
     [[nodiscard]] std::int32_t column(PlanarPoint p) const { return grid_cell(p.x, grid_.px, grid_.width); }
     [[nodiscard]] std::int32_t row(PlanarPoint p) const { return grid_cell(p.y, grid_.py, grid_.height); }
     [[nodiscard]] bool on_canvas(std::int32_t i, std::int32_t j) const {
@@ -77,39 +59,6 @@ class Snapper {
                j < static_cast<std::int32_t>(grid_.height);
     }
     SnappedTexel& texel(std::uint32_t i, std::uint32_t j) { return out_.texels[std::size_t{j} * grid_.width + i]; }
-
-    /// By the table.
-    void insert(std::uint32_t i, std::uint32_t j, std::uint32_t segment) {
-        SnappedTexel& t = texel(i, j);
-        t.segments = kTransformations[t.segments][segment];
-        t.inserted = static_cast<SegmentSet>(t.inserted | 1u << segment);
-        ++out_.stats.segments;
-    }
-
-    [[nodiscard]] bool on_canvas(const GridCrossing& c) const {
-        return c.cell >= 0 && c.cell < static_cast<std::int32_t>(c.vertical ? grid_.height : grid_.width);
-    }
-    /// Of the edge crossed, on the canvas.
-    template <class T> static T& at(EdgeGrid<T>& edges, const GridCrossing& c) {
-        const auto line = static_cast<std::uint32_t>(c.line), cell = static_cast<std::uint32_t>(c.cell);
-        return c.vertical ? edges.at(line, cell, FeatureEdge::West) : edges.at(cell, line, FeatureEdge::North);
-    }
-
-    void cross(const GridCrossing& c) {
-        if (!on_canvas(c)) return;
-        EdgePoint& p = at(points_, c);
-        __builtin_prefetch(&p, 1);
-        crossed_.push_back({&p, c.position});
-    }
-
-    /// Those of vertices on the edge are added with their knot, from all of its lines.
-    void add_direction(const GridCrossing& c, fetex::FeaturePoint direction) {
-        if (on_canvas(c)) at(directions_, c).add(direction.x, direction.y);
-    }
-
-    [[nodiscard]] bool lies_on(PlanarPoint p, const GridCrossing& c) const {
-        return c.vertical ? p.x == grid_.px * c.line : p.y == grid_.py * c.line;
-    }
 
     [[nodiscard]] fetex::FeaturePoint texels(std::int64_t dx, std::int64_t dy) const {
         return {static_cast<double>(dx) / static_cast<double>(grid_.px),
@@ -124,87 +73,30 @@ class Snapper {
         return texels((to.x - from.x) * grid_.kx, (to.y - from.y) * grid_.ky);
     }
 
-    /// After the whole line, when memory had time to arrive: most of the time was spent waiting for it.
-    void add_crossings() {
-        for (const auto& [point, position] : crossed_)
-            point->add(position);
-        out_.stats.crossings += crossed_.size();
-        crossed_.clear();
-    }
-
-    /// A curve on its way from texel to texel.
-    struct Way {
-        std::uint32_t curve = 0;
-        std::int32_t i = 0, j = 0;
-        bool crossed = false;
-        FeatureEdge in{};
-        double position = 0;
-    };
-
-    /// It crosses into the next texel.
-    void step(Way& way, const GridCrossing& c) {
-        const Passage p = passage(c);
-        const LatticeCurve& curve = curves_.curves[way.curve];
-        cross(c);
-        if (on_canvas(way.i, way.j)) {
-            if (way.crossed)
-                pass(way, p.out, curve.straight);
-            else
-                add_arm(way.curve, curve.a, p.out, c.position);
-        }
-        way.in = p.in, way.position = c.position, way.crossed = true;
-        (c.vertical ? way.i : way.j) += c.increasing ? 1 : -1;
-    }
-
-    /// Through a texel. A quadratic may leave it by the edge that it came in by, and is lost there.
-    void pass(const Way& way, FeatureEdge out, bool straight) {
-        const auto i = static_cast<std::uint32_t>(way.i), j = static_cast<std::uint32_t>(way.j);
-        if (way.in == out) {
-            texel(i, j).kinds |= kFolded;
-            ++out_.stats.folded;
-            return;
-        }
-        const std::uint32_t segment =
-            kSegmentBetween[fetex::feature_edge_index(way.in)][fetex::feature_edge_index(out)];
-        insert(i, j, segment);
-        if (!straight) texel(i, j).curved |= static_cast<SegmentSet>(1u << segment);
-    }
-
-    void insert_curve(std::uint32_t k) {
+    void add_to_knots(std::uint32_t k) {
         const LatticeCurve& curve = curves_.curves[k];
-        const PlanarPoint from = planar(curve.a), to = planar(curve.b);
-        Way way{k, column(from), row(from), false, {}, 0};
-        if (curve.straight) {
-            const fetex::FeaturePoint direction = texels(to.x - from.x, to.y - from.y);
-            walk_grid(grid_, from, to, [&](const GridCrossing& c) {
-                step(way, c);
-                if (!directions_.empty() && !lies_on(from, c) && !lies_on(to, c)) add_direction(c, direction);
-            });
-        } else {
-            for (const CurveCrossing& c : walk_.walk(quadratic(curve))) {
-                step(way, c.at);
-                if (c.t > 0 && c.t < 1) add_direction(c.at, {c.dx, c.dy});
-            }
-        }
-        add_crossings();
         ++degree_[curve.a], ++degree_[curve.b];
-        if (way.crossed) {
-            if (on_canvas(way.i, way.j)) add_arm(k, curve.b, way.in, way.position);
-        } else if (on_canvas(way.i, way.j)) {
-            inside_.unite(curve.a, curve.b);
-            knot_lines_.push_back({curve.a,
-                                   curve.b,
-                                   {},
-                                   local(curve.a),
-                                   local(curve.b),
-                                   tangent(curve, curve.a),
-                                   tangent(curve, curve.b),
-                                   curve.straight});
-        }
+        const CurveArms& arms = arms_of_[k];
+        if (arms.edge[0] != FeatureEdge{}) add_arm(curve, curve.a, arms.edge[0], arms.position[0]);
+        if (arms.edge[1] != FeatureEdge{}) add_arm(curve, curve.b, arms.edge[1], arms.position[1]);
+        // Whatever leaves a texel of the canvas has an arm there.
+        if (arms.edge[0] == FeatureEdge{} && on_canvas(column(planar(curve.a)), row(planar(curve.a))))
+            add_inside(curve);
     }
 
-    void add_arm(std::uint32_t k, std::uint32_t vertex, FeatureEdge e, double position) {
-        const LatticeCurve& curve = curves_.curves[k];
+    void add_inside(const LatticeCurve& curve) {
+        inside_.unite(curve.a, curve.b);
+        knot_lines_.push_back({curve.a,
+                               curve.b,
+                               {},
+                               local(curve.a),
+                               local(curve.b),
+                               tangent(curve, curve.a),
+                               tangent(curve, curve.b),
+                               curve.straight});
+    }
+
+    void add_arm(const LatticeCurve& curve, std::uint32_t vertex, FeatureEdge e, double position) {
         arms_.push_back({vertex, e, position});
         knot_lines_.push_back({vertex,
                                kNone,
@@ -214,10 +106,6 @@ class Snapper {
                                tangent(curve, vertex),
                                {},
                                curve.straight});
-    }
-
-    [[nodiscard]] PlanarQuadratic quadratic(const LatticeCurve& curve) const {
-        return {planar(curve.a), {curve.middle.x * grid_.kx, curve.middle.y * grid_.ky}, planar(curve.b)};
     }
 
     /// In its texel.
@@ -268,7 +156,7 @@ class Snapper {
             for (const KnotEnd& end : shape.ends)
                 points_.at(knot.i, knot.j, end.edge).add(end.position);
         for (std::uint32_t k = 0; k < fetex::kFeatureSegmentCount; ++k)
-            if (shape.segments >> k & 1u) insert(knot.i, knot.j, k);
+            if (shape.segments >> k & 1u) insert_segment(texel(knot.i, knot.j), k), ++out_.stats.segments;
         if (std::popcount(shape.edges) > 2) ++out_.stats.junctions;
         std::vector<FeatureEdge> ends = ends_of(knot, shape);
         if (!directions_.empty()) {
@@ -299,17 +187,15 @@ class Snapper {
 
     /// Means of the edges that segments end on.
     void settle_points() {
-        const std::size_t corners = (std::size_t{grid_.width} + 1) * (std::size_t{grid_.height} + 1);
-        out_.north.assign(corners, fetex::FeatureCrossing{}.position);
-        out_.west.assign(corners, fetex::FeatureCrossing{}.position);
-        for (std::uint32_t j = 0; j < grid_.height; ++j) {
-            for (std::uint32_t i = 0; i < grid_.width; ++i) {
-                const EdgeSet edges = edges_of(texel(i, j).segments);
-                for (const FeatureEdge e : fetex::kFeatureEdges)
-                    if (edges >> fetex::feature_edge_index(e) & 1u)
-                        out_.position(i, j, e) = points_.at(i, j, e).position();
-            }
-        }
+        const std::size_t columns = std::size_t{grid_.width} + 1, rows = std::size_t{grid_.height} + 1;
+        out_.north.assign(columns * rows, fetex::FeatureCrossing{}.position);
+        out_.west.assign(columns * rows, fetex::FeatureCrossing{}.position);
+        parallel_for_chunks(rows, kRows, threads_, [&](std::size_t begin, std::size_t end) {
+            for (auto j = static_cast<std::uint32_t>(begin); j < end; ++j)
+                for (std::uint32_t i = 0; i < columns; ++i)
+                    for (const FeatureEdge e : {FeatureEdge::North, FeatureEdge::West})
+                        if (out_.is_used(i, j, e)) out_.position(i, j, e) = points_.at(i, j, e).position();
+        });
     }
 
     /// Mean directions; of a segment that the table made, the kind of those that it replaced.
@@ -344,12 +230,12 @@ class Snapper {
 
     const LatticeCurves& curves_;
     Grid grid_;
-    CurveWalk walk_;
+    unsigned threads_;
     EdgePoints points_;
     EdgeDirections directions_; ///< empty if everything is straight
     UnionFind inside_;          ///< vertices joined by lines that leave no texel
     std::vector<std::uint32_t> degree_;
-    std::vector<std::pair<EdgePoint*, double>> crossed_; ///< by the line being inserted
+    std::vector<CurveArms> arms_of_; ///< by curve
     std::vector<KnotVertex> vertices_;
     std::vector<KnotArm> arms_;
     std::vector<KnotLine> knot_lines_;
@@ -372,27 +258,31 @@ bool SnappedCurves::is_used(std::uint32_t i, std::uint32_t j, FeatureEdge e) con
                     : ends(column, row, North) || ends(column, row - 1, South);
 }
 
-SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height) {
-    return Snapper(lattice_curves(lines), width, height, false).run(1);
+SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height, unsigned threads) {
+    const LatticeCurves curves = lattice_curves(lines);
+    return Snapper(curves, width, height, false, threads).run();
 }
 
 SnappedCurves snap_quadratics(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height,
                               unsigned threads) {
-    return Snapper(curves, width, height, true).run(threads);
+    return Snapper(curves, width, height, true, threads).run();
 }
 
 fetex::FeatureCurvesTexture linear_texture(const SnappedCurves& curves, fetex::FeatureNumberFormat format,
-                                           float distance_limit) {
+                                           float distance_limit, unsigned threads) {
     fetex::FeatureCurvesTexture t =
         fetex::feature_empty_texture(curves.width, curves.height, format, true, distance_limit);
     std::ranges::transform(curves.texels, t.configurations.begin(),
                            [](const SnappedTexel& s) { return configuration_of(s.segments); });
-    for (std::uint32_t j = 0; j <= curves.height; ++j) {
-        for (std::uint32_t i = 0; i <= curves.width; ++i) {
-            fetex::feature_set_crossing(t, i, j, FeatureEdge::North, {curves.position(i, j, FeatureEdge::North), 0});
-            fetex::feature_set_crossing(t, i, j, FeatureEdge::West, {curves.position(i, j, FeatureEdge::West), 0});
-        }
-    }
+    const auto set = [&](std::uint32_t i, std::uint32_t j, FeatureEdge e) {
+        const fetex::FeatureCrossing at{curves.position(i, j, e), 0};
+        if (at != fetex::FeatureCrossing{}) fetex::feature_set_crossing(t, i, j, e, at);
+    };
+    parallel_for_chunks(std::size_t{curves.height} + 1, kRows, threads, [&](std::size_t begin, std::size_t end) {
+        for (auto j = static_cast<std::uint32_t>(begin); j < end; ++j)
+            for (std::uint32_t i = 0; i <= curves.width; ++i)
+                set(i, j, FeatureEdge::North), set(i, j, FeatureEdge::West);
+    });
     return t;
 }
 

@@ -89,10 +89,10 @@ struct SnappedCurves {
     }
 };
 
-/// Preconditions: 1 ≤ width, height ≤ 16384. The same result for the same input; one thread.
-SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height);
+/// Preconditions: 1 ≤ width, height ≤ 16384. On `threads` threads (0: all), with the same result for any number.
+SnappedCurves snap_lines(const LatticeLines& lines, std::uint32_t width, std::uint32_t height, unsigned threads = 1);
 
-/// Likewise; on `threads` threads (0: all), with the same result for any number.
+/// Likewise.
 SnappedCurves snap_quadratics(const LatticeCurves& curves, std::uint32_t width, std::uint32_t height,
                               unsigned threads = 1);
 
@@ -101,6 +101,6 @@ std::vector<Diagnostic> snap_diagnostics(const SnappedCurves& curves);
 
 /// The texture of straight segments; distances are the limit.
 fetex::FeatureCurvesTexture linear_texture(const SnappedCurves& curves, fetex::FeatureNumberFormat format,
-                                           float distance_limit);
+                                           float distance_limit, unsigned threads = 1);
 
 } // namespace fetexc

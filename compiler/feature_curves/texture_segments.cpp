@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "compiler/feature_curves/texture_segments.h"
 
+#include "compiler/parallel.h"
 #include "formats/feature_curve_geometry.h"
 
 namespace fetexc {
@@ -10,18 +11,26 @@ CanvasSegment curve_of(const TextureSegment& s) {
     return {1, {s.from, s.to}};
 }
 
-TextureSegments::TextureSegments(const fetex::FeatureCurvesTexture& texture)
+TextureSegments::TextureSegments(const fetex::FeatureCurvesTexture& texture, unsigned threads)
     : width_(texture.width), height_(texture.height), configurations_(texture.configurations),
-      occupied_(width_, height_) {
+      north_(fetex::feature_corner_count(texture)), west_(north_.size()), occupied_(width_, height_) {
     if (!texture.linear) middles_.resize(2 * configurations_.size());
-    for (std::uint32_t j = 0; j <= height_; ++j) {
-        for (std::uint32_t i = 0; i <= width_; ++i) {
-            north_.push_back(fetex::feature_crossing(texture, i, j, fetex::FeatureEdge::North).position);
-            west_.push_back(fetex::feature_crossing(texture, i, j, fetex::FeatureEdge::West).position);
-            if (i == width_ || j == height_ || configurations_[std::size_t{j} * width_ + i] == 0) continue;
-            occupied_.set(i, j);
-            if (!texture.linear) bend(texture, i, j);
-        }
+    // What a word of the bits of a column has belongs to one thread.
+    parallel_for_chunks(std::size_t{height_} + 1, OccupiedTexels::kWord, threads,
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t j = begin; j < end; ++j)
+                                add_row(texture, static_cast<std::uint32_t>(j));
+                        });
+}
+
+void TextureSegments::add_row(const fetex::FeatureCurvesTexture& texture, std::uint32_t j) {
+    for (std::uint32_t i = 0; i <= width_; ++i) {
+        const std::size_t corner = std::size_t{j} * (std::size_t{width_} + 1) + i;
+        north_[corner] = fetex::feature_crossing(texture, i, j, fetex::FeatureEdge::North).position;
+        west_[corner] = fetex::feature_crossing(texture, i, j, fetex::FeatureEdge::West).position;
+        if (i == width_ || j == height_ || configurations_[texel(i, j)] == 0) continue;
+        occupied_.set(i, j);
+        if (!texture.linear) bend(texture, i, j);
     }
 }
 

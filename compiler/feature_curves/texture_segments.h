@@ -25,13 +25,15 @@ CanvasSegment curve_of(const TextureSegment& s);
 /// The texels of rows and columns that have curves, a bit each.
 class OccupiedTexels {
   public:
+    static constexpr std::uint32_t kWord = 64; ///< texels
+
     OccupiedTexels(std::uint32_t width, std::uint32_t height)
-        : row_words_(width / 64 + 1), column_words_(height / 64 + 1), rows_(std::size_t{row_words_} * height),
+        : row_words_(width / kWord + 1), column_words_(height / kWord + 1), rows_(std::size_t{row_words_} * height),
           columns_(std::size_t{column_words_} * width) {}
 
     void set(std::uint32_t i, std::uint32_t j) {
-        rows_[std::size_t{j} * row_words_ + i / 64] |= std::uint64_t{1} << i % 64;
-        columns_[std::size_t{i} * column_words_ + j / 64] |= std::uint64_t{1} << j % 64;
+        rows_[std::size_t{j} * row_words_ + i / kWord] |= std::uint64_t{1} << i % kWord;
+        columns_[std::size_t{i} * column_words_ + j / kWord] |= std::uint64_t{1} << j % kWord;
     }
     /// visit(i) for those of row j from column `first` to `last`, in increasing order.
     template <class Visit>
@@ -47,12 +49,12 @@ class OccupiedTexels {
   private:
     template <class Visit>
     static void in_line(const std::uint64_t* words, std::uint32_t first, std::uint32_t last, const Visit& visit) {
-        for (std::uint32_t w = first / 64; w <= last / 64; ++w) {
+        for (std::uint32_t w = first / kWord; w <= last / kWord; ++w) {
             std::uint64_t bits = words[w];
-            if (w == first / 64) bits &= ~std::uint64_t{0} << first % 64;
-            if (w == last / 64) bits &= ~std::uint64_t{0} >> (63 - last % 64);
+            if (w == first / kWord) bits &= ~std::uint64_t{0} << first % kWord;
+            if (w == last / kWord) bits &= ~std::uint64_t{0} >> (kWord - 1 - last % kWord);
             for (; bits != 0; bits &= bits - 1)
-                visit(64 * w + static_cast<std::uint32_t>(std::countr_zero(bits)));
+                visit(kWord * w + static_cast<std::uint32_t>(std::countr_zero(bits)));
         }
     }
 
@@ -63,7 +65,7 @@ class OccupiedTexels {
 class TextureSegments {
   public:
     /// Precondition: validate_feature_curves finds nothing but in distances and gradients.
-    explicit TextureSegments(const fetex::FeatureCurvesTexture& texture);
+    explicit TextureSegments(const fetex::FeatureCurvesTexture& texture, unsigned threads = 1);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
@@ -71,17 +73,24 @@ class TextureSegments {
 
     /// visit(segment) for those of texel (i,j), in the order of its configuration.
     template <class Visit> void visit_texel(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
-        const std::size_t texel = std::size_t{j} * width_ + i;
-        const fetex::FeatureSegmentList list = fetex::feature_unpack(configurations_[texel]);
-        for (std::uint32_t k = 0; k < list.count; ++k) {
-            const fetex::FeatureSegment edges = list.segment[k];
-            TextureSegment s{point(i, j, edges.first), point(i, j, edges.second), {}, edges};
-            if (!middles_.empty()) s.middle = middles_[2 * texel + k];
-            visit(s);
-        }
+        const fetex::FeatureSegmentList list = fetex::feature_unpack(configurations_[texel(i, j)]);
+        for (std::uint32_t k = 0; k < list.count; ++k)
+            visit(segment(i, j, k, list.segment[k]));
+    }
+    /// Segment 0 or 1 of texel (i,j), which has it.
+    [[nodiscard]] TextureSegment segment(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+        return segment(i, j, k, fetex::feature_unpack(configurations_[texel(i, j)]).segment[k]);
     }
 
   private:
+    [[nodiscard]] std::size_t texel(std::uint32_t i, std::uint32_t j) const { return std::size_t{j} * width_ + i; }
+    [[nodiscard]] TextureSegment segment(std::uint32_t i, std::uint32_t j, std::uint32_t k,
+                                         fetex::FeatureSegment edges) const {
+        TextureSegment s{point(i, j, edges.first), point(i, j, edges.second), {}, edges};
+        if (!middles_.empty()) s.middle = middles_[2 * texel(i, j) + k];
+        return s;
+    }
+    void add_row(const fetex::FeatureCurvesTexture& texture, std::uint32_t j);
     /// Middle points of a texel's curves.
     void bend(const fetex::FeatureCurvesTexture& texture, std::uint32_t i, std::uint32_t j);
 

@@ -85,4 +85,10 @@ constexpr SegmentSet segment_set(fetex::FeatureConfiguration c) {
     return static_cast<SegmentSet>(set);
 }
 
+/// Edges that its segments end on. The word has them in four numbers of four bits, each edge in the lower three.
+constexpr EdgeSet edges_of_configuration(fetex::FeatureConfiguration c) {
+    const unsigned numbers = 1u << (c & 7u) | 1u << (c >> 4 & 7u) | 1u << (c >> 8 & 7u) | 1u << (c >> 12 & 7u);
+    return static_cast<EdgeSet>(numbers >> 1); // 0: no edge
+}
+
 } // namespace fetexc

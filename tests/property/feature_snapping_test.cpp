@@ -291,5 +291,36 @@ TEST(FeatureSnapping, starsStayJoined) {
     }
 }
 
+/// Lines are inserted in bands of rows, curves in one go: what no line is fitted in is the same.
+TEST(FeatureSnapping, bandsOfRowsMakeNoDifference) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Network network{40, 100, {}};
+        for (int k = 0; k < 40; ++k) {
+            const auto point = [&]() -> CanvasPoint {
+                if (k % 2 == 0) return {random.between(-3, 43), random.between(-3, 103)};
+                return {random.integer(0, 10) * 4.0, random.integer(0, 25) * 4.0};
+            };
+            network.curves.push_back({"", {{1, {point(), point()}}}, false, "", {}, {}});
+        }
+        const LatticeLines lines = lattice_lines(network, 40, 100).value();
+        const SnappedCurves bands = snap_lines(lines, 40, 100, 0),
+                            whole = snap_quadratics(lattice_curves(lines), 40, 100, 1);
+        EXPECT_EQ(bands.stats.crossings, whole.stats.crossings);
+        EXPECT_EQ(bands.stats.segments, whole.stats.segments);
+        EXPECT_GT(bands.stats.crossings, 1000u);
+        for (std::uint32_t j = 0; j < 100; ++j) {
+            for (std::uint32_t i = 0; i < 40; ++i) {
+                EXPECT_EQ(bands.texel(i, j).segments, whole.texel(i, j).segments) << i << ' ' << j;
+                EXPECT_EQ(bands.texel(i, j).inserted, whole.texel(i, j).inserted) << i << ' ' << j;
+                if (whole.stats.fitted > 0) continue;
+                EXPECT_EQ(bands.position(i, j, North), whole.position(i, j, North)) << i << ' ' << j;
+                EXPECT_EQ(bands.position(i, j, West), whole.position(i, j, West)) << i << ' ' << j;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace fetexc

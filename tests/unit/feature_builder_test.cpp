@@ -86,6 +86,33 @@ TEST(FeatureBuilder, hasTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(one.texture.base, more.texture.base);
 }
 
+TEST(FeatureBuilder, hasTheSameBytesOfManyLinesForAnyNumberOfThreads) {
+    Random random(3);
+    Network network{90, 70, {}};
+    for (int k = 0; k < 300; ++k) { // half of them on texels' corners and borders
+        const auto at = [&](double side) {
+            return k % 2 == 0 ? random.between(-5, side + 5) : random.integer(0, 20) * 4.0;
+        };
+        network.curves.push_back(line({at(90), at(70)}, {at(90), at(70)}));
+    }
+    std::erase_if(network.curves, [](const NetworkCurve& c) { return is_point(c.segments.front()); });
+    FeatureCurvesOptions options = options_at(90, 70);
+    const FeatureCurvesBuild one = built(network, options);
+    EXPECT_GT(one.stats.snapping.crossings, 10000u);
+    for (const unsigned threads : {2u, 8u}) {
+        options.threads = threads;
+        const FeatureCurvesBuild more = built(network, options);
+        EXPECT_EQ(one.texture.configurations, more.texture.configurations);
+        EXPECT_EQ(one.texture.signatures, more.texture.signatures);
+        EXPECT_EQ(one.texture.distances, more.texture.distances);
+        EXPECT_EQ(one.texture.gradients, more.texture.gradients);
+        EXPECT_EQ(one.stats.snapping.crossings, more.stats.snapping.crossings);
+        ASSERT_EQ(one.moves.size(), more.moves.size());
+        for (std::size_t k = 0; k < one.moves.size(); ++k)
+            EXPECT_EQ(one.moves[k].distance, more.moves[k].distance);
+    }
+}
+
 /// Else the distance would be too small, and the profile too wide, where some corners are at the limit.
 TEST(FeatureBuilder, cornersAreKnownWhereverTheProfileReaches) {
     FeatureCurvesOptions options = options_at(80, 40);

@@ -190,6 +190,41 @@ TEST(GridWalk, findsTheCrossingsOfTheDefinition) {
     EXPECT_GT(total, 100000u);
 }
 
+TEST(GridWalk, rowsHaveWhatTheWholeWalkHasThere) {
+    Random random(12);
+    std::size_t total = 0, steep = 0;
+    for (int n = 0; n < 20000; ++n) {
+        Grid g;
+        const bool corners = n % 2 == 0;
+        g.width = 7, g.height = 9, g.px = corners ? 4 : 1000003, g.py = corners ? 4 : 999983;
+        const auto coordinate = [&](std::int64_t pitch, std::uint32_t count) {
+            return static_cast<std::int64_t>(
+                std::floor(random.between(-2.0 * pitch, (count + 2.0) * static_cast<double>(pitch))));
+        };
+        const PlanarPoint a{coordinate(g.px, g.width), coordinate(g.py, g.height)},
+            b{coordinate(g.px, g.width), coordinate(g.py, g.height)};
+        const auto first = static_cast<std::int32_t>(random.integer(0, 8)),
+                   last = static_cast<std::int32_t>(random.integer(first + 1, 9));
+        const GridRows rows{first, last};
+        std::vector<GridCrossing> wanted, found;
+        walk_grid(g, a, b, [&](const GridCrossing& c) {
+            if (c.vertical ? rows.has(c.cell) : first <= c.line && c.line <= last) wanted.push_back(c);
+        });
+        walk_rows(g, a, b, rows, [&](const GridCrossing& c) { found.push_back(c); });
+        ASSERT_EQ(found.size(), wanted.size()) << n;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            EXPECT_EQ(found[k].vertical, wanted[k].vertical);
+            EXPECT_EQ(found[k].line, wanted[k].line);
+            EXPECT_EQ(found[k].cell, wanted[k].cell);
+            EXPECT_EQ(found[k].position, wanted[k].position);
+            EXPECT_EQ(found[k].increasing, wanted[k].increasing);
+        }
+        total += found.size(), steep += found.size() > 1 && !found.front().vertical && !found.back().vertical;
+    }
+    EXPECT_GT(total, 40000u);
+    EXPECT_GT(steep, 2000u);
+}
+
 /// Coordinates of the largest scenes: 2^28 steps times 2^14.
 TEST(GridWalk, isExactAtTheLargestCoordinates) {
     Grid g;
