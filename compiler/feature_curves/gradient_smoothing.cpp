@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -40,9 +41,16 @@ class Smoother {
     Smoother(const DistanceMap& map, const fetex::FeatureCurvesTexture& texture, unsigned threads)
         : map_(map), texture_(texture), columns_(std::size_t{map.width} + 1), rows_(std::size_t{map.height} + 1),
           neighbours_(columns_ * rows_) {
+        std::vector<std::uint8_t> joins(columns_ * rows_);
+        for_rows(threads, [&](std::size_t j) { find_joins(j, joins.data() + j * columns_); });
         for_rows(threads, [&](std::size_t j) {
-            for (std::size_t i = 0; i < columns_; ++i)
-                neighbours_[j * columns_ + i] = neighbours_of(i, j);
+            for (std::size_t i = 0; i < columns_; ++i) {
+                const std::size_t at = j * columns_ + i;
+                unsigned bits = joins[at];
+                if (i > 0 && (joins[at - 1] & kRight) != 0) bits |= kLeft;
+                if (j > 0 && (joins[at - columns_] & kBelow) != 0) bits |= kAbove;
+                neighbours_[at] = static_cast<std::uint8_t>(bits);
+            }
         });
     }
 
@@ -69,31 +77,36 @@ class Smoother {
     }
 
   private:
-    [[nodiscard]] bool ends(std::size_t i, std::size_t j, fetex::FeatureEdge on) const {
-        if (i >= texture_.width || j >= texture_.height) return false; // before the first: beyond the largest number
-        const EdgeSet edges = edges_of_configuration(texture_.configurations[j * texture_.width + i]);
-        return (edges >> fetex::feature_edge_index(on) & 1u) != 0;
+    /// Of the texels of a row and of none right of them, the edges that segments end on; before the first and behind
+    /// the last row: none.
+    [[nodiscard]] std::vector<EdgeSet> edges_in_row(std::size_t j) const {
+        std::vector<EdgeSet> edges(columns_);
+        if (j < texture_.height) // before the first: beyond the largest number
+            std::transform(texture_.configurations.data() + j * texture_.width,
+                           texture_.configurations.data() + (j + 1) * texture_.width, edges.begin(),
+                           edges_of_configuration);
+        return edges;
     }
-    [[nodiscard]] bool near(std::size_t i, std::size_t j) const {
-        return i < columns_ && j < rows_ && map_.distances[j * columns_ + i] < map_.limit;
-    }
-    /// With the corner to the right, and with that below: no point of a curve between them. A point on the north (west)
-    /// edge of texel (i,j) is the south (east) edge's of the texel before.
-    [[nodiscard]] bool joined_right(std::size_t i, std::size_t j) const {
+
+    /// Of the corners of a row, with the one to the right and that below, where no point of a curve is between them.
+    /// One on the north (west) edge of a texel is the south (east) edge's of the texel before.
+    void find_joins(std::size_t j, std::uint8_t* joins) const {
         using enum fetex::FeatureEdge;
-        return near(i, j) && near(i + 1, j) && !ends(i, j, North) && !ends(i, j - 1, South);
-    }
-    [[nodiscard]] bool joined_below(std::size_t i, std::size_t j) const {
-        using enum fetex::FeatureEdge;
-        return near(i, j) && near(i, j + 1) && !ends(i, j, West) && !ends(i - 1, j, East);
-    }
-    [[nodiscard]] std::uint8_t neighbours_of(std::size_t i, std::size_t j) const {
-        unsigned bits = 0;
-        if (joined_right(i - 1, j)) bits |= kLeft;
-        if (joined_right(i, j)) bits |= kRight;
-        if (joined_below(i, j - 1)) bits |= kAbove;
-        if (joined_below(i, j)) bits |= kBelow;
-        return static_cast<std::uint8_t>(bits);
+        const auto ends = [](EdgeSet edges, fetex::FeatureEdge on) {
+            return (edges >> fetex::feature_edge_index(on) & 1u) != 0;
+        };
+        const std::vector<EdgeSet> edges = edges_in_row(j), above = edges_in_row(j - 1);
+        const double* const distance = map_.distances.data() + j * columns_;
+        const double limit = map_.limit;
+        for (std::size_t i = 0; i < columns_; ++i) {
+            unsigned bits = 0;
+            if (i + 1 < columns_ && distance[i + 1] < limit && !ends(edges[i], North) && !ends(above[i], South))
+                bits |= kRight;
+            if (j + 1 < rows_ && distance[i + columns_] < limit && !ends(edges[i], West) &&
+                !(i > 0 && ends(edges[i - 1], East)))
+                bits |= kBelow;
+            joins[i] = static_cast<std::uint8_t>(distance[i] < limit ? bits : 0);
+        }
     }
 
     const DistanceMap& map_;

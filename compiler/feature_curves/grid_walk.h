@@ -8,6 +8,7 @@
 /// crosses or meets does so in one texel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "compiler/planar/grid.h"
@@ -125,7 +126,8 @@ struct GridWay {
 /// The walk of walk_rows, its directions known where it is compiled.
 template <bool Right, bool Down, class Visit> Visit walk_way(const Grid& grid, GridWay way, Visit visit) {
     constexpr std::int32_t kAcross = Right ? 1 : -1, kAlong = Down ? 1 : -1;
-    auto& [column, row, across, along, leaves] = way;
+    std::int32_t column = way.column, row = way.row;
+    GridLines &across = way.across, &along = way.along;
     across.at.shift(grid.py * row), along.at.shift(grid.px * column);
     const std::int64_t border = Down ? grid.py : 0; // of the row, where the line leaves it
     // At a corner of the grid (see above): to the right, the vertical line is first, but for the border.
@@ -135,7 +137,7 @@ template <bool Right, bool Down, class Visit> Visit walk_way(const Grid& grid, G
         const bool corner = Down ? !across.at.above(border) : !across.at.below(border);
         return !corner || Right == (across.next == static_cast<std::int32_t>(grid.width));
     };
-    while (along.left > 0 || (across.left > 0 && !leaves)) {
+    while (along.left > 0 || (across.left > 0 && !way.leaves)) {
         if (horizontal_first()) {
             visit(GridCrossing{false, along.next, column, along.at.position(grid.px), Down});
             row += kAlong, across.at.shift(kAlong * grid.py);
