@@ -15,9 +15,9 @@ namespace {
 
 constexpr FourCc kHeader = fourcc("FCVH"), kConfigurations = fourcc("FCVC"), kSignatures = fourcc("FCVS"),
                  kDistances = fourcc("FCVD"), kGradients = fourcc("FCVG"), kBase = fourcc("FCVB"),
-                 kProfile = fourcc("FCVP"), kMips = fourcc("FCVM");
+                 kProfile = fourcc("FCVP"), kProfileMap = fourcc("FCVI"), kMips = fourcc("FCVM");
 constexpr std::array<FourCc, 6> kNeeded = {kHeader, kConfigurations, kSignatures, kDistances, kBase, kProfile};
-constexpr std::size_t kHeaderWords = 16, kHeaderWordsUsed = 9; ///< SPEC §2.7
+constexpr std::size_t kHeaderWords = 16, kHeaderWordsUsed = 10; ///< SPEC §2.7
 constexpr std::uint32_t kFlagLinear = 1, kFlagGradients = 2, kFlagOneSample = 4, kFlagsKnown = 7;
 constexpr std::size_t kEntryWords = 4;
 
@@ -32,14 +32,20 @@ std::vector<std::uint32_t> header_words(const FeatureCurvesTexture& t) {
                                         std::bit_cast<std::uint32_t>(t.distance_limit),
                                         static_cast<std::uint32_t>(t.kind),
                                         static_cast<std::uint32_t>(t.base_format),
-                                        static_cast<std::uint32_t>(t.profile.size()),
-                                        std::bit_cast<std::uint32_t>(t.height_scale)};
+                                        static_cast<std::uint32_t>(feature_profile_entries(t)),
+                                        std::bit_cast<std::uint32_t>(t.height_scale),
+                                        t.profiles > 1 ? t.profiles : 0};
     words.resize(kHeaderWords, 0);
     return words;
 }
 
+/// What FCVH says of other chunks' lengths, beyond what a texture has.
+struct Lengths {
+    std::uint32_t flags = 0, entries = 0;
+};
+
 /// Numbers that nothing else depends on are the validator's.
-std::optional<Finding> read_header(FeatureCurvesTexture& out, std::uint32_t& flags, const ChunkView& chunk) {
+std::optional<Finding> read_header(FeatureCurvesTexture& out, Lengths& lengths, const ChunkView& chunk) {
     const auto bad = [&](std::size_t word, const char* message) {
         return Finding{FindingCode::BadFeatureHeader, chunk.offset + word * 4, std::string("FCVH: ") + message};
     };
@@ -52,13 +58,14 @@ std::optional<Finding> read_header(FeatureCurvesTexture& out, std::uint32_t& fla
     if (w[5] > static_cast<std::uint32_t>(FeatureKind::Height)) return bad(5, "unknown kind");
     if (w[6] > static_cast<std::uint32_t>(FeatureSampleFormat::Rgb8)) return bad(6, "unknown sample format");
     if (w[7] < 2 || w[7] > kFeatureProfileMost) return bad(7, "the profile hasn't 2 … 4096 entries");
+    if (w[9] == 1 || w[9] > kFeatureProfilesMost) return bad(9, "profiles are neither 0, for one, nor 2 … 16");
     for (std::size_t k = kHeaderWordsUsed; k < kHeaderWords; ++k)
         if (w[k] != 0) return bad(k, "reserved words aren't 0");
-    flags = w[3];
+    lengths = {w[3], w[7]};
     out.width = w[0], out.height = w[1], out.format = static_cast<FeatureNumberFormat>(w[2]);
-    out.linear = (flags & kFlagLinear) != 0, out.distance_limit = std::bit_cast<float>(w[4]);
+    out.linear = (w[3] & kFlagLinear) != 0, out.distance_limit = std::bit_cast<float>(w[4]);
     out.kind = static_cast<FeatureKind>(w[5]), out.base_format = static_cast<FeatureSampleFormat>(w[6]);
-    out.profile.resize(w[7]), out.height_scale = std::bit_cast<float>(w[8]);
+    out.height_scale = std::bit_cast<float>(w[8]), out.profiles = std::max(w[9], 1u);
     return std::nullopt;
 }
 
@@ -69,12 +76,20 @@ Finding wrong_length(const ChunkView& chunk) {
 
 std::vector<std::uint8_t> copy_of(const ChunkView& chunk) { return {chunk.payload.begin(), chunk.payload.end()}; }
 
-std::vector<std::uint8_t> configuration_bytes(const FeatureCurvesTexture& t) {
+std::vector<std::uint8_t> bytes_of(const std::vector<std::uint16_t>& words) {
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(2 * t.configurations.size());
-    for (const FeatureConfiguration c : t.configurations)
-        append_le(bytes, c);
+    bytes.reserve(2 * words.size());
+    for (const std::uint16_t word : words)
+        append_le(bytes, word);
     return bytes;
+}
+
+std::vector<std::uint16_t> short_words(ByteSpan bytes) {
+    std::vector<std::uint16_t> words;
+    words.reserve(bytes.size() / 2);
+    for (std::uint64_t k = 0; k < bytes.size(); k += 2)
+        words.push_back(load_le<std::uint16_t>(bytes, k));
+    return words;
 }
 
 std::vector<std::uint32_t> profile_words(const FeatureCurvesTexture& t) {
@@ -85,9 +100,10 @@ std::vector<std::uint32_t> profile_words(const FeatureCurvesTexture& t) {
     return words;
 }
 
-/// Precondition: `out.profile` has the length that FCVH says, the chunk too.
+/// Precondition: the chunk has the length that FCVH says.
 void read_profile(FeatureCurvesTexture& out, const ChunkView& chunk) {
     const std::vector<std::uint32_t> w = to_words(chunk.payload);
+    out.profile.resize(w.size() / kEntryWords);
     for (std::size_t k = 0; k < out.profile.size(); ++k) {
         const std::uint32_t* e = &w[kEntryWords * k];
         out.profile[k] = {std::bit_cast<float>(e[0]), std::bit_cast<float>(e[1]), std::bit_cast<float>(e[2]), e[3]};
@@ -111,32 +127,36 @@ std::optional<Finding> read_mips(FeatureCurvesTexture& out, const FeatureCurvesC
 }
 
 /// Bytes that a part must have, given the header.
-std::uint64_t part_bytes(const FeatureCurvesTexture& t, std::uint32_t flags, FourCc part) {
+std::uint64_t part_bytes(const FeatureCurvesTexture& t, const Lengths& lengths, FourCc part) {
     const std::uint64_t corners = feature_corner_count(t), numbers = corners * feature_number_bytes(t.format);
     if (part == kHeader) return kHeaderWords * 4;
     if (part == kConfigurations) return 2 * std::uint64_t{t.width} * t.height;
     if (part == kSignatures) return numbers * feature_signature_numbers(t.linear);
     if (part == kGradients) return 2 * numbers;
-    if (part == kBase) return (flags & kFlagOneSample ? 1 : corners) * bitmap_sample_bytes(t.base_format);
-    return part == kProfile ? 4 * kEntryWords * t.profile.size() : numbers;
+    if (part == kBase) return (lengths.flags & kFlagOneSample ? 1 : corners) * bitmap_sample_bytes(t.base_format);
+    if (part == kProfile) return 4 * kEntryWords * std::uint64_t{lengths.entries} * t.profiles;
+    return part == kProfileMap ? 2 * corners : numbers;
 }
 
 std::optional<Finding> read_parts(FeatureCurvesTexture& out, const FeatureCurvesChunks& chunks) {
     const auto& parts = chunks.parts;
-    std::uint32_t flags = 0;
-    if (auto bad = read_header(out, flags, *parts.at(kHeader))) return bad;
-    if (parts.contains(kGradients) != ((flags & kFlagGradients) != 0))
+    Lengths lengths;
+    if (auto bad = read_header(out, lengths, *parts.at(kHeader))) return bad;
+    if (parts.contains(kGradients) != ((lengths.flags & kFlagGradients) != 0))
         return Finding{FindingCode::MissingChunk, parts.at(kHeader)->offset,
                        "FCVG is there, and FCVH doesn't say so, or the other way round"};
+    if (parts.contains(kProfileMap) != (out.profiles > 1))
+        return Finding{FindingCode::MissingChunk, parts.at(kHeader)->offset,
+                       "FCVI is there, and FCVH has one profile, or the other way round"};
     for (const auto& [part, chunk] : parts)
-        if (chunk->payload.size() != part_bytes(out, flags, part)) return wrong_length(*chunk);
-    for (std::uint64_t k = 0; k < std::uint64_t{out.width} * out.height; ++k)
-        out.configurations.push_back(load_le<std::uint16_t>(parts.at(kConfigurations)->payload, 2 * k));
+        if (chunk->payload.size() != part_bytes(out, lengths, part)) return wrong_length(*chunk);
+    out.configurations = short_words(parts.at(kConfigurations)->payload);
     out.signatures = copy_of(*parts.at(kSignatures)), out.distances = copy_of(*parts.at(kDistances));
     if (parts.contains(kGradients)) out.gradients = copy_of(*parts.at(kGradients));
     const ByteSpan base = parts.at(kBase)->payload;
     out.base = out.base_format == FeatureSampleFormat::Rgb8 ? with_alpha(base) : to_words(base);
     read_profile(out, *parts.at(kProfile));
+    if (parts.contains(kProfileMap)) out.profile_map = short_words(parts.at(kProfileMap)->payload);
     return read_mips(out, chunks);
 }
 
@@ -156,6 +176,7 @@ FourCc part_named(const std::string& message) {
                                                     {"distances", kDistances},
                                                     {"gradients", kGradients},
                                                     {"base", kBase},
+                                                    {"profile map", kProfileMap},
                                                     {"profile", kProfile}};
     for (const auto& [name, part] : names)
         if (message.starts_with(name)) return part;
@@ -177,8 +198,8 @@ bool FeatureCurvesChunks::complete() const {
 
 bool is_feature_curves_chunk(const ChunkView& chunk) {
     if (chunk.representation == kWholeFile) return false;
-    return chunk.type == kMips ||
-           (chunk.level == 0 && (chunk.type == kGradients || std::ranges::find(kNeeded, chunk.type) != kNeeded.end()));
+    return chunk.type == kMips || (chunk.level == 0 && (chunk.type == kGradients || chunk.type == kProfileMap ||
+                                                        std::ranges::find(kNeeded, chunk.type) != kNeeded.end()));
 }
 
 void append_feature_curves_chunks(std::vector<ChunkView>& chunks, const FeatureCurvesTexture& texture,
@@ -188,7 +209,7 @@ void append_feature_curves_chunks(std::vector<ChunkView>& chunks, const FeatureC
     };
     const std::uint16_t flags = critical ? kChunkCritical : 0;
     append(kHeader, flags, 0, payloads.emplace_back(to_bytes(header_words(texture))));
-    append(kConfigurations, flags, 0, payloads.emplace_back(configuration_bytes(texture)));
+    append(kConfigurations, flags, 0, payloads.emplace_back(bytes_of(texture.configurations)));
     append(kSignatures, flags, 0, texture.signatures);
     append(kDistances, flags, 0, texture.distances);
     if (!texture.gradients.empty()) append(kGradients, flags, 0, texture.gradients);
@@ -196,6 +217,7 @@ void append_feature_curves_chunks(std::vector<ChunkView>& chunks, const FeatureC
            texture.base_format == FeatureSampleFormat::Rgb8 ? payloads.emplace_back(without_alpha(texture.base))
                                                             : as_bytes(texture.base, payloads));
     append(kProfile, flags, 0, payloads.emplace_back(to_bytes(profile_words(texture))));
+    if (texture.profiles > 1) append(kProfileMap, flags, 0, payloads.emplace_back(bytes_of(texture.profile_map)));
     for (std::uint32_t k = 1; !texture.mips.empty() && k <= fbt_mip_levels(texture.width, texture.height); ++k) {
         const FbtMipLevel level = fbt_mip_level(texture.width, texture.height, k);
         append(kMips, 0, k, as_bytes(std::span(texture.mips).subspan(level.first, level.samples()), payloads));

@@ -168,7 +168,13 @@ struct FeatureProfileEntry {
     std::uint32_t color = 0; ///< RGBA8, premultiplied
     friend bool operator==(const FeatureProfileEntry&, const FeatureProfileEntry&) = default;
 };
-inline constexpr std::uint32_t kFeatureProfileMost = 4096; ///< entries
+inline constexpr std::uint32_t kFeatureProfileMost = 4096; ///< entries of a profile
+inline constexpr std::uint32_t kFeatureProfilesMost = 16;  ///< profiles of a texture
+
+/// Numbers of profiles, of a texel's corner (i,j), of the point on its north edge, and on its west edge.
+constexpr std::uint16_t feature_profile_word(unsigned corner, unsigned north, unsigned west) {
+    return static_cast<std::uint16_t>(corner | north << 4 | west << 8);
+}
 
 /// Owning texture with feature curves. validate_feature_curves (formats/validate.h) checks the invariants.
 ///
@@ -176,7 +182,8 @@ inline constexpr std::uint32_t kFeatureProfileMost = 4096; ///< entries
 /// position and angle of its west edge (linear: the two positions). Its east edge is the west one of texel (i+1,j), its
 /// south edge the north one of (i,j+1). Distances: (W+1)·(H+1), those of the texels' corners (i,j). That is five
 /// numbers a texel, three when linear (the paper, §6). Gradients: pairs, of the same corners. Numbers are
-/// little-endian, of four bytes (float) or two, as in the file.
+/// little-endian, of four bytes (float) or two, as in the file. With several profiles each edge's point and each corner
+/// has one of them.
 struct FeatureCurvesTexture {
     std::uint32_t width = 0, height = 0; ///< texels, 1 … 16384
     FeatureNumberFormat format = FeatureNumberFormat::Float;
@@ -187,10 +194,14 @@ struct FeatureCurvesTexture {
 
     FeatureKind kind = FeatureKind::Color;
     FeatureSampleFormat base_format = FeatureSampleFormat::Rgba8;
-    float height_scale = 1;                   ///< texels, > 0: the height that 1 in the base map stands for; else 1
-    std::vector<std::uint8_t> gradients;      ///< empty (not with normals), or x and y at each corner, −1 … 1
-    std::vector<std::uint32_t> base;          ///< one sample for everywhere, or one for each corner, packed, row by row
-    std::vector<FeatureProfileEntry> profile; ///< 2 … kFeatureProfileMost, evenly from distance 0 to the limit
+    float height_scale = 1;              ///< texels, > 0: the height that 1 in the base map stands for; else 1
+    std::vector<std::uint8_t> gradients; ///< empty (not with normals), or x and y at each corner, −1 … 1
+    std::vector<std::uint32_t> base;     ///< one sample for everywhere, or one for each corner, packed, row by row
+    /// Of each profile 2 … kFeatureProfileMost entries, evenly from distance 0 to the limit; one profile after the
+    /// other.
+    std::vector<FeatureProfileEntry> profile;
+    std::uint32_t profiles = 1;             ///< 1 … kFeatureProfilesMost
+    std::vector<std::uint16_t> profile_map; ///< one profile: empty; else a feature_profile_word a corner, row by row
     /// Empty, or levels 1 … n of what is shown (fbt_mip_level gives their sizes and where they begin), RGBA8, row by
     /// row.
     std::vector<std::uint32_t> mips;
@@ -203,6 +214,8 @@ inline std::uint32_t feature_signature_numbers(bool linear) { return linear ? 2 
 inline std::uint64_t feature_corner_count(const FeatureCurvesTexture& t) {
     return (std::uint64_t{t.width} + 1) * (std::uint64_t{t.height} + 1);
 }
+/// Entries of each profile.
+inline std::size_t feature_profile_entries(const FeatureCurvesTexture& t) { return t.profile.size() / t.profiles; }
 /// Bytes of all arrays, as the file has them.
 std::uint64_t feature_gpu_bytes(const FeatureCurvesTexture& t);
 
@@ -237,6 +250,14 @@ struct FeatureVector {
 FeatureVector feature_gradient(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);
 /// The first makes room for all of them, 0 elsewhere.
 void feature_set_gradient(FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j, const FeatureVector& gradient);
+
+/// Numbers of the profiles that a texel's corners (bit 0 east, bit 1 south) and the points of its edges (by
+/// feature_edge_index) have.
+struct FeatureTexelProfiles {
+    std::array<std::uint8_t, 4> corners{}, edges{};
+};
+/// All 0 with one profile.
+FeatureTexelProfiles feature_texel_profiles(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);
 
 /// Of the base map at corner (i,j), or the sample for everywhere.
 FbtColor feature_base(const FeatureCurvesTexture& t, std::uint32_t i, std::uint32_t j);

@@ -36,7 +36,7 @@ struct Frame {
 /// frame's north to its west.
 struct Placed {
     Frame frame;
-    bool opposite = false;
+    bool opposite = false, reversed = false; ///< reversed: from the segment's second edge to its first
     FeaturePoint b0, b1, b2, p;
 };
 
@@ -52,7 +52,8 @@ Placed place(FeatureSegment s, const FeatureQuadratic& curve, FeaturePoint p) {
         out.frame.mirror =
             (s.first == East || s.second == East ? kEast : 0) | (s.first == South || s.second == South ? kSouth : 0);
     out.b0 = out.frame.to(curve.b0), out.b1 = out.frame.to(curve.b1), out.b2 = out.frame.to(curve.b2);
-    if (!out.opposite && s.first == East) std::swap(out.b0, out.b2); // east to south: the south one is along x
+    out.reversed = !out.opposite && s.first == East; // east to south: the south one is along x
+    if (out.reversed) std::swap(out.b0, out.b2);
     out.p = out.frame.to(p);
     return out;
 }
@@ -119,6 +120,13 @@ struct Side {
     std::uint32_t corners = 0;             ///< of the texel, on the point's side
     bool first = false;                    ///< the side of corner 0 of the frame
     double p = 0, curve = 0, far_side = 0; ///< along the ray: of the point, of the curve, of the border beyond it
+    double along = 0;                      ///< of the curve there: its parameter
+
+    /// From the curve, 0, to where the ray begins or ends, 1.
+    [[nodiscard]] double share() const {
+        const double of = first ? curve - p : p - curve, all = first ? curve : far_side - curve;
+        return all > 0 ? of / all : 0;
+    }
 };
 
 /// Opposite ends: rays along x, from 0 to 1. Else rays from corner 0, measured by x + y.
@@ -127,7 +135,8 @@ Side side_of(const Placed& s) {
     const double first = s.opposite ? s.p.y - s.b0.y : cross(s.b0, s.p),
                  middle = s.opposite ? s.p.y - s.b1.y : cross(s.b1, s.p),
                  last = s.opposite ? s.p.y - s.b2.y : cross(s.b2, s.p);
-    const FeaturePoint on = feature_curve_at({s.b0, s.b1, s.b2}, only_root(first, middle, last));
+    out.along = only_root(first, middle, last);
+    const FeaturePoint on = feature_curve_at({s.b0, s.b1, s.b2}, out.along);
     out.p = s.opposite ? s.p.x : s.p.x + s.p.y;
     out.curve = s.opposite ? on.x : on.x + on.y;
     const double farther = std::max(s.p.x, s.p.y);
@@ -140,13 +149,9 @@ Side side_of(const Placed& s) {
 
 /// Linear along the ray: 0 on the curve, the border's value on the border.
 double distance_along(const Placed& s, const Side& side, const Border& border, const CornerValues& values) {
-    const auto part = [](double of, double all) { return all > 0 ? of / all : 0; };
     const FeaturePoint p = s.p;
-    if (side.first) {
-        const double value = s.opposite ? border.at(0, kSouth, p.y) : values[0];
-        return value * part(side.curve - side.p, side.curve);
-    }
-    const double share = part(side.p - side.curve, side.far_side - side.curve);
+    const double share = side.share();
+    if (side.first) return (s.opposite ? border.at(0, kSouth, p.y) : values[0]) * share;
     if (s.opposite) return share * border.at(kEast, kEast | kSouth, p.y);
     return share *
            (p.x >= p.y ? border.at(kEast, kEast | kSouth, p.y / p.x) : border.at(kSouth, kEast | kSouth, p.x / p.y));
@@ -194,6 +199,8 @@ FeatureRegion feature_region(const FeatureTexel& texel, const CornerValues& dist
             values[c] = reached == 0 || has(reached, corner) ? distances[corner] : stand_in(placed[k], c);
         }
         along[k] = distance_along(placed[k], sides[k], Border(texel, placed[k].frame, values), values);
+        out.nearness[k] = 1 - sides[k].share();
+        out.along[k] = placed[k].reversed ? 1 - sides[k].along : sides[k].along;
         const std::uint32_t beyond = kFeatureAllCorners & ~sides[k].corners,
                             others = count == 2 ? beyond & sides[1 - k].corners : beyond;
         out.across[k] = others != 0 ? others : beyond;
@@ -205,7 +212,7 @@ FeatureRegion feature_region(const FeatureTexel& texel, const CornerValues& dist
     return out;
 }
 
-std::array<double, 4> feature_weights(const FeatureTexel& texel, std::uint32_t corners, FeaturePoint p) {
+std::array<double, 4> feature_bilinear(std::uint32_t corners, FeaturePoint p) {
     const double x = std::clamp(p.x, kWeightMargin, 1 - kWeightMargin),
                  y = std::clamp(p.y, kWeightMargin, 1 - kWeightMargin);
     CornerValues w = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
@@ -214,6 +221,11 @@ std::array<double, 4> feature_weights(const FeatureTexel& texel, std::uint32_t c
         sum += w[c] = has(corners, c) ? w[c] : 0;
     for (double& v : w)
         v /= sum;
+    return w;
+}
+
+std::array<double, 4> feature_weights(const FeatureTexel& texel, std::uint32_t corners, FeaturePoint p) {
+    CornerValues w = feature_bilinear(corners, p);
     // On an open edge each side of the point has the value of its own corner; that fades towards the edge across.
     const auto open = [&](FeatureEdge e, std::uint32_t a, std::uint32_t b, double along, double nearness) {
         if (!has(texel.open, feature_edge_index(e)) || !has(corners, a) || !has(corners, b)) return;
@@ -223,7 +235,7 @@ std::array<double, 4> feature_weights(const FeatureTexel& texel, std::uint32_t c
     using enum FeatureEdge;
     open(North, 0, 1, p.x, 1 - p.y), open(South, 2, 3, p.x, p.y);
     open(West, 0, 2, p.y, 1 - p.x), open(East, 1, 3, p.y, p.x);
-    sum = 0;
+    double sum = 0;
     for (double& v : w)
         sum += v = std::max(v, 0.0);
     for (double& v : w)

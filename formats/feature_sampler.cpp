@@ -45,6 +45,31 @@ std::uint32_t ends_of(const FeatureCurvesTexture& t, std::int64_t i, std::int64_
     return edges;
 }
 
+void add(FeatureProducts& sum, double part, const FeatureProducts& p) {
+    sum.slope += part * p.slope, sum.base_slope += part * p.base_slope, sum.blend += part * p.blend;
+    sum.across += part * p.across, sum.height += part * p.height;
+    sum.color.r += part * p.color.r, sum.color.g += part * p.color.g;
+    sum.color.b += part * p.color.b, sum.color.a += part * p.color.a;
+}
+
+/// Of all profiles that count at the point.
+FeatureProducts products_of(const FeatureCurvesTexture& t, const FeatureAt& at, double reach) {
+    if (t.profiles == 1) return feature_profile_mean(t, at.distance, reach);
+    FeatureProducts sum;
+    sum.blend = 0;
+    for (std::uint32_t k = 0; k < t.profiles; ++k)
+        if (at.profiles[k] > 0) add(sum, at.profiles[k], feature_profile_mean(t, at.distance, reach, k));
+    return sum;
+}
+
+std::array<double, kFeatureProfilesMost> by_profile(const FeatureTexelProfiles& numbers,
+                                                    const FeatureProfileWeights& weights) {
+    std::array<double, kFeatureProfilesMost> out{};
+    for (std::size_t k = 0; k < 4; ++k)
+        out[numbers.corners[k]] += weights.corners[k], out[numbers.edges[k]] += weights.edges[k];
+    return out;
+}
+
 template <class Of> FbtColor weighted(const std::array<double, 4>& weights, const Of& of) {
     FbtColor sum;
     for (std::uint32_t c = 0; c < kFeatureCorners; ++c) {
@@ -103,6 +128,8 @@ FeatureAt feature_at_local(const FeatureCurvesTexture& t, std::uint32_t i, std::
         const FeatureVector g = feature_gradient(t, i + (c & 1), j + (c >> 1));
         out.gradient.x += weights[c] * g.x, out.gradient.y += weights[c] * g.y;
     }
+    if (t.profiles > 1)
+        out.profiles = by_profile(feature_texel_profiles(t, i, j), feature_profile_weights(texel, region, p));
     const auto base = [&](std::uint32_t c) { return feature_base(t, i + (c & 1), j + (c >> 1)); };
     out.base = weighted(weights, base);
     out.across = out.base;
@@ -125,7 +152,7 @@ double feature_reach(FeaturePixel pixel) {
 }
 
 FbtColor feature_shown(const FeatureCurvesTexture& t, const FeatureAt& at, double reach) {
-    const FeatureProducts p = feature_profile_mean(t, at.distance, reach);
+    const FeatureProducts p = products_of(t, at, reach);
     const FbtColor base = p.across > 0 ? mix(at.base, at.across, p.across / p.blend) : at.base;
     switch (t.kind) {
     case FeatureKind::Normal: {

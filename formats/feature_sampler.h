@@ -3,6 +3,8 @@
 /// formats/SPEC.md, section 9. Points are in texel space; outside the drawing they count as the nearest one of it.
 #pragma once
 
+#include <array>
+
 #include "formats/feature_curves.h"
 
 namespace fetex {
@@ -13,6 +15,7 @@ struct FeatureAt {
     FeatureVector gradient; ///< of the distance
     FbtColor base;          ///< of the base map
     FbtColor across;        ///< likewise, across the segments of its texel, the nearer counting more; else base
+    std::array<double, kFeatureProfilesMost> profiles = {1}; ///< how much each counts: they add up to 1
 };
 FeatureAt feature_at(const FeatureCurvesTexture& t, double x, double y);
 /// For a point given as texel (i,j) of the texture plus local offset in [0,1] (deep zoom).
@@ -30,9 +33,10 @@ struct FeatureProducts {
     double height = 0;     ///< (1 − b)·h
     FbtColor color;        ///< (1 − b)·colour
 };
-/// Mean over distance − reach … distance + reach of the profile on both sides of a curve: distances below 0 are across
+/// Mean over distance − reach … distance + reach of a profile on both sides of a curve: distances below 0 are across
 /// it, where slope has the opposite sign. reach 0: the products at the distance.
-FeatureProducts feature_profile_mean(const FeatureCurvesTexture& t, double distance, double reach);
+FeatureProducts feature_profile_mean(const FeatureCurvesTexture& t, double distance, double reach,
+                                     std::uint32_t profile = 0);
 
 /// What is shown, as a colour by the texture's kind. reach: half of what a pixel sees, texels.
 FbtColor feature_shown(const FeatureCurvesTexture& t, const FeatureAt& at, double reach = 0);

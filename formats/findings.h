@@ -31,7 +31,8 @@ enum class FindingCode : std::uint16_t {
     MissingChunk = 203, ///< FBTH without FBTT or FBTR, or the other way round; some levels of FBTM, or ones beyond;
                         ///< likewise BLVH, BLVT, BLVM; BLVI that BLVH doesn't ask for, or the other way round;
                         ///< likewise SLMH, SLMC, SLMS, SLMM; likewise PNCH, PNCD, PNCS, PNCM; likewise FCVH, FCVC,
-                        ///< FCVS, FCVD, FCVB, FCVP, FCVM; FCVG that FCVH doesn't ask for, or the other way round
+                        ///< FCVS, FCVD, FCVB, FCVP, FCVM; FCVG or FCVI that FCVH doesn't ask for, or the other
+                        ///< way round
     BadFbtHeader = 204,         ///< FBTH: length, reserved words, flags
     FbtSizeMismatch = 205,      ///< FBTT, FBTC, FBTR or a level of FBTM has not the length that FBTH asks for
     BadBilevelHeader = 206,     ///< BLVH: length, dimensions, rule, reserved words
@@ -88,11 +89,12 @@ enum class FindingCode : std::uint16_t {
     FeatureBadTexel = 5003,   ///< not a valid configuration; a straight bit in a linear texture
     FeatureNumber = 5004, ///< position outside 0 … 1, angle outside 0 … π, distance outside 0 … limit, gradient
                           ///< outside −1 … 1
-    FeatureUnusedEdge = 5005,       ///< an edge that no segment ends on hasn't the default position and angle
+    FeatureUnusedEdge = 5005,       ///< an edge that no segment ends on hasn't the default position, angle and profile
     FeatureNoCurve = 5006,          ///< a segment that isn't straight, and whose tangents don't meet in the texel
     FeatureNotPremultiplied = 5007, ///< a colour channel exceeds alpha
     FeatureSampleValue = 5008,      ///< as SilmapSampleValue
     FeatureProfileValue = 5009,     ///< a height or slope beyond ±65504, a blend outside 0 … 1
+    FeatureProfileNumber = 5010,    ///< a corner or an edge has a profile that isn't there
 };
 
 /// One finding. offset: bytes from the start of the file, or, from validate_fbt and the like, of the part that the

@@ -30,7 +30,12 @@ const char* wrong_size(const FeatureCurvesTexture& t) {
     const std::uint32_t words = fbt_sample_words(silmap_fbt_format(t.base_format));
     if (t.base.size() != words && t.base.size() != feature_corner_count(t) * words)
         return "the base map is neither one sample nor those of all corners";
-    if (t.profile.size() < 2 || t.profile.size() > kFeatureProfileMost) return "the profile hasn't 2 … 4096 entries";
+    if (t.profiles < 1 || t.profiles > kFeatureProfilesMost) return "there aren't 1 … 16 profiles";
+    if (t.profile.size() % t.profiles != 0 || t.profile.size() < 2 * std::size_t{t.profiles} ||
+        t.profile.size() > std::size_t{kFeatureProfileMost} * t.profiles)
+        return "profiles haven't 2 … 4096 entries each";
+    if (t.profile_map.size() != (t.profiles > 1 ? feature_corner_count(t) : 0))
+        return "the profile map isn't that of all corners, or there is one profile";
     if (!t.mips.empty() && t.mips.size() != fbt_mip_samples(t.width, t.height))
         return "the mips are neither empty nor all levels";
     return nullptr;
@@ -86,6 +91,7 @@ class Check {
         samples(t_.base, t_.base_format, "base");
         samples(t_.mips, FeatureSampleFormat::Rgba8, "mips");
         profile();
+        profile_map();
         configurations();
         if (!findings_.empty()) return std::move(findings_);
         unused_edges();
@@ -133,6 +139,14 @@ class Check {
         }
     }
 
+    void profile_map() {
+        for (std::uint64_t k = 0; k < t_.profile_map.size(); ++k) {
+            const unsigned word = t_.profile_map[k];
+            if (word >> 12 != 0 || std::max({word & 15u, word >> 4 & 15u, word >> 8 & 15u}) >= t_.profiles)
+                add(FindingCode::FeatureProfileNumber, 2 * k, "profile map: a profile that isn't there");
+        }
+    }
+
     void configurations() {
         for (std::size_t k = 0; k < t_.configurations.size(); ++k)
             if (const FeatureConfiguration c = t_.configurations[k];
@@ -170,8 +184,11 @@ class Check {
     }
 
     void unused(std::uint32_t i, std::uint32_t j, FeatureEdge e, bool used) {
-        if (used || feature_crossing(t_, i, j, e) == FeatureCrossing{}) return;
+        if (used) return;
         const std::uint64_t corner = std::uint64_t{j} * (std::uint64_t{t_.width} + 1) + i;
+        if (!t_.profile_map.empty() && (t_.profile_map[corner] >> (e == FeatureEdge::North ? 4 : 8) & 15u) != 0)
+            add(FindingCode::FeatureUnusedEdge, 2 * corner, "profile map: an edge without a curve hasn't the default");
+        if (feature_crossing(t_, i, j, e) == FeatureCrossing{}) return;
         add(FindingCode::FeatureUnusedEdge,
             corner * feature_signature_numbers(t_.linear) * feature_number_bytes(t_.format),
             "signatures: an edge without a curve hasn't the default");

@@ -14,13 +14,16 @@
 // Colours as they are; normals as (n + 1) / 2, heights as grey.
 //
 //   fetexFeatureTexels      R16UI, width x height: bits 0-2 the first segment (0 none, 1 NE, 2 NS, 3 NW, 4 ES, 5 EW, 6 SW), bit 3
-//                           it is straight, bits 4-7 the second likewise, bits 8-11 the edges N, E, S, W that are open
+//                           it is straight, bits 4-7 the second likewise, bits 8-11 the edges N, E, S, W that are open.
+//                           With several profiles RG32UI: the second word has the profiles of the corners NW, NE, SW, SE and of
+//                           the edges' points N, E, S, W, four bits each
 //   fetexFeatureSignatures  (width + 1) x (height + 1): north position, north angle, west position, west angle; linear: the
 //                           positions. RGBA32F or RGBA16F; linear RG32F or RG16F; with FETEX_FEATURE_BITS16 RGBA16UI or RG16UI
 //   fetexFeatureCorners     (width + 1) x (height + 1): distance, and gradient x, y, 0: RGBA32F, RGBA16F or RGBA16UI; without
 //                           gradients R32F, R16F or R16UI
 //   fetexFeatureBase        (width + 1) x (height + 1), or 1 x 1: RGBA8 or RGBA16F; RGBA16UI for samples of 16 bits
-//   fetexFeatureProfile     RGBA32F, entries x 4: rows (1-b)h', b h', b, (1-b)h; (1-b) colour; and the integrals of both from 0
+//   fetexFeatureProfile     RGBA32F, entries x 4: rows (1-b)h', b h', b, (1-b)h; (1-b) colour; and the integrals of both from 0;
+//                           four rows a profile
 //   fetexFeatureMips        RGBA8 2D with a mip chain: GL's level k is the chunk FCVM of level k + 1
 //
 // Defined before it, by feature_curves_specialisation (host/shader_source.h) or by hand:
@@ -32,6 +35,7 @@
 //   FETEX_FEATURE_SEGMENTS       most segments in a texel: 0, 1, 2
 //   FETEX_FEATURE_CURVES         1: some segment isn't straight
 //   FETEX_FEATURE_OPEN           1: some edge is open
+//   FETEX_FEATURE_PROFILES       how many profiles there are
 //   FETEX_FEATURE_SAMPLES        1: fetexFeatureBase is RGBA16UI
 //   FETEX_FEATURE_ONE_SAMPLE     1: fetexFeatureBase is 1 x 1
 //   FETEX_FEATURE_NORMAL_FACTOR  of the base map's normals: 255/127, 65535/32767 or 2
@@ -61,6 +65,9 @@
 #endif
 #ifndef FETEX_FEATURE_OPEN
 #define FETEX_FEATURE_OPEN 1
+#endif
+#ifndef FETEX_FEATURE_PROFILES
+#define FETEX_FEATURE_PROFILES 1
 #endif
 #ifndef FETEX_FEATURE_SAMPLES
 #define FETEX_FEATURE_SAMPLES 0
@@ -160,6 +167,9 @@ struct FetexFeatureSide {
     vec2 p;                 // of the point, in the frame
     float at, curve, border; // along the ray: point, curve, the texel's border beyond
     vec4 corners;           // of the texel, 1 on the point's side
+#if FETEX_FEATURE_PROFILES > 1
+    vec4 ends;              // of the texel's edges N, E, S, W those that it ends on, and how near where the ray meets it
+#endif
 #if FETEX_FEATURE_SEGMENTS > 1
     vec4 standIn; // distances of the frame's corners from tangents
 #endif
@@ -204,7 +214,12 @@ FetexFeatureSide fetexFeatureSideOf(uint segment, ivec2 base, vec2 local) {
     float u = fetexFeatureRatio(up, up + down);
     vec2 on = mix(mix(from, middle, u), mix(middle, to, u), u);
 #else
-    vec2 on = mix(from, to, fetexFeatureRatio(ends.x, ends.x - ends.y));
+    float u = fetexFeatureRatio(ends.x, ends.x - ends.y);
+    vec2 on = mix(from, to, u);
+#endif
+#if FETEX_FEATURE_PROFILES > 1
+    vec4 north = vec4(1.0, 0.0, 0.0, 0.0), east = north.wxyz, south = north.wwxy, west = north.wwwx;
+    s.ends = mix(kind <= 3u ? north : kind == 5u ? west : south, kind == 2u ? south : kind == 3u || kind == 6u ? west : east, u);
 #endif
     s.at = s.opposite ? s.p.x : s.p.x + s.p.y;
     s.curve = s.opposite ? on.x : on.x + on.y;
@@ -220,6 +235,11 @@ FetexFeatureSide fetexFeatureSideOf(uint segment, ivec2 base, vec2 local) {
     s.standIn = s.opposite ? vec4(beside, vec2(b2, 1.0 - b2) * off.y) : vec4(beside, (1.0 - b2) * off.y, across);
 #endif
     return s;
+}
+
+// From the curve, 0, to where the ray begins or ends, 1.
+float fetexFeatureShare(FetexFeatureSide s) {
+    return s.first ? fetexFeatureRatio(s.curve - s.at, s.curve) : fetexFeatureRatio(s.at - s.curve, s.border - s.curve);
 }
 
 // values: of the frame's corners.
@@ -240,7 +260,7 @@ float fetexFeatureAlong(FetexFeatureSide s, vec4 values, ivec2 base, uint openEd
     value = fetexFeatureBorder(ends.x, ends.y, along, open, q);
 #endif
     value = s.first && !s.opposite ? values.x : value;
-    return value * (s.first ? fetexFeatureRatio(s.curve - s.at, s.curve) : fetexFeatureRatio(s.at - s.curve, s.border - s.curve));
+    return value * fetexFeatureShare(s);
 }
 #endif
 
@@ -286,6 +306,26 @@ vec4 fetexFeatureBeside(ivec2 base, vec2 p, uint openEdges, vec4 weights) {
     weights = max(weights, 0.0);
     return weights / dot(weights, vec4(1.0));
 }
+
+#if FETEX_FEATURE_PROFILES > 1
+// What open edges' points take from the corners beside them, if both of these count.
+void fetexFeatureTaken(ivec2 base, vec2 p, uint openEdges, inout vec4 corners, inout vec4 edges) {
+    vec4 counted = corners;
+    for (int edge = openEdges == 0u ? 4 : 0; edge < 4; ++edge) {
+        if (((openEdges >> uint(edge)) & 1u) == 0u) continue;
+        FetexFeatureEdge e = fetexFeatureEdgeAt(base, p, edge);
+        bool before = e.along < e.q;
+        float of = before ? e.along : 1.0 - e.along, all = before ? e.q : 1.0 - e.q;
+        float taken = dot(counted, e.a) > 0.0 && dot(counted, e.b) > 0.0 ? e.nearness * (all > 0.0 ? of / all : 1.0) : 0.0;
+        edges += taken * vec4(equal(ivec4(0, 1, 2, 3), ivec4(edge)));
+        corners -= taken * ((1.0 - e.q) * e.a + e.q * e.b);
+    }
+    corners = max(corners, 0.0);
+    float sum = dot(corners, vec4(1.0)) + dot(edges, vec4(1.0));
+    corners /= sum;
+    edges /= sum;
+}
+#endif
 #endif
 
 vec4 fetexFeatureBilinear(vec2 p) { return vec4(1.0 - p.x, p.x, 1.0 - p.x, p.x) * vec4(1.0 - p.y, 1.0 - p.y, p.y, p.y); }
@@ -294,13 +334,22 @@ struct FetexFeatureAt {
     float distance; // texels
     vec2 gradient;
     vec4 base, across; // the base map, and across the segments of the texel, the nearer counting more
+#if FETEX_FEATURE_PROFILES > 1
+    uint profiles;            // as fetexFeatureTexels has them
+    vec4 ofCorners, ofEdges;  // how much each counts
+#endif
 };
 
-// The weights of a set of corners, 1 in it and 0 outside.
-vec4 fetexFeatureWeights(ivec2 base, vec2 p, uint openEdges, vec4 corners) {
+// Bilinear weights of a set of corners, 1 in it and 0 outside.
+vec4 fetexFeatureInside(vec2 p, vec4 corners) {
     const float margin = 1.0 / 1048576.0; // off the edges, so that no set has no weight
     vec4 weights = corners * fetexFeatureBilinear(clamp(p, margin, 1.0 - margin));
-    weights /= dot(weights, vec4(1.0));
+    return weights / dot(weights, vec4(1.0));
+}
+
+// The weights of a set of corners.
+vec4 fetexFeatureWeights(ivec2 base, vec2 p, uint openEdges, vec4 corners) {
+    vec4 weights = fetexFeatureInside(p, corners);
 #if FETEX_FEATURE_OPEN
     return fetexFeatureBeside(base, p, openEdges, weights);
 #else
@@ -309,7 +358,8 @@ vec4 fetexFeatureWeights(ivec2 base, vec2 p, uint openEdges, vec4 corners) {
 }
 
 FetexFeatureAt fetexFeatureFind(ivec2 base, vec2 local) {
-    uint word = texelFetch(fetexFeatureTexels, base, 0).x, open = word >> 8u;
+    uvec2 words = texelFetch(fetexFeatureTexels, base, 0).xy;
+    uint word = words.x, open = word >> 8u;
     vec3 nw = fetexFeatureCorner(base), ne = fetexFeatureCorner(base + ivec2(1, 0));
     vec3 sw = fetexFeatureCorner(base + ivec2(0, 1)), se = fetexFeatureCorner(base + 1);
     vec4 distances = vec4(nw.x, ne.x, sw.x, se.x), weights = fetexFeatureBilinear(local);
@@ -326,6 +376,10 @@ FetexFeatureAt fetexFeatureFind(ivec2 base, vec2 local) {
     }
 #endif
     vec4 across = weights;
+#if FETEX_FEATURE_PROFILES > 1
+    vec4 side = vec4(1.0), ends = vec4(0.0); // corners reached; edges' points, by the segments
+    float nearest = 0.0;
+#endif
     // Loops where branches would do, because some renderers skip loops that nobody needs, but no branch.
 #if FETEX_FEATURE_SEGMENTS == 1
     for (int k = 0; k < segments; ++k) {
@@ -333,6 +387,9 @@ FetexFeatureAt fetexFeatureFind(ivec2 base, vec2 local) {
         found = fetexFeatureAlong(s, fetexFeatureTurned(distances, s.turned), base, open);
         weights = fetexFeatureWeights(base, local, open, s.corners);
         across = fetexFeatureWeights(base, local, open, 1.0 - s.corners);
+#if FETEX_FEATURE_PROFILES > 1
+        nearest = 1.0 - fetexFeatureShare(s), side = s.corners, ends = s.ends;
+#endif
     }
 #elif FETEX_FEATURE_SEGMENTS == 2
     FetexFeatureSide one, two;
@@ -354,10 +411,26 @@ FetexFeatureAt fetexFeatureFind(ivec2 base, vec2 local) {
         across = k == 0 ? others : mix(across, others, fetexFeatureRatio(found, found + d));
         found = k == 0 ? d : min(d, found);
         weights = k == 0 ? fetexFeatureWeights(base, local, open, any ? reached : one.corners) : weights;
+#if FETEX_FEATURE_PROFILES > 1
+        // Of two segments the one that the point lies on counts alone; on an edge where both end they count alike.
+        float nearness = 1.0 - fetexFeatureShare(s), before = nearest * (1.0 - nearness), after = nearness * (1.0 - nearest);
+        ends = k == 0 ? s.ends : mix(ends, s.ends, fetexFeatureRatio(after, before + after));
+        nearest = max(nearest, nearness);
+        side = any ? reached : one.corners;
+#endif
     }
 #endif
     FetexFeatureAt at;
     at.distance = min(found, FETEX_FEATURE_LIMIT);
+#if FETEX_FEATURE_PROFILES > 1
+    vec4 ofCorners = fetexFeatureInside(local, side), ofEdges = vec4(0.0);
+#if FETEX_FEATURE_OPEN
+    fetexFeatureTaken(base, local, open, ofCorners, ofEdges);
+#endif
+    at.profiles = words.y;
+    at.ofCorners = (1.0 - nearest) * ofCorners;
+    at.ofEdges = (1.0 - nearest) * ofEdges + nearest * ends;
+#endif
     at.gradient = weights.x * nw.yz + weights.y * ne.yz + weights.z * sw.yz + weights.w * se.yz;
 #if FETEX_FEATURE_ONE_SAMPLE
     at.base = fetexFeatureBaseAt(ivec2(0));
@@ -378,7 +451,7 @@ struct FetexFeatureProducts {
     float across;  // of the mean of b what distances below 0 add
 };
 
-// A row of the profile at a distance not below 0: before and after it, how far it is from the one to the other, in entries.
+// A place in a profile at a distance not below 0: the entry before and after it, how far it is from the one to the other, in entries.
 struct FetexFeatureCell {
     int first;
     float part;
@@ -390,6 +463,7 @@ FetexFeatureCell fetexFeatureCellAt(float distance, int entries) {
     cell.part = at - float(cell.first);
     return cell;
 }
+// row: four a profile.
 vec4 fetexFeatureRow(int entry, int row, int entries) { return texelFetch(fetexFeatureProfile, ivec2(min(entry, entries - 1), row), 0); }
 
 // Of a row: x the integral from 0 to each of two distances added, y from the first to the second; in entries.
@@ -410,7 +484,8 @@ FetexFeatureIntegrals fetexFeatureIntegral(FetexFeatureCell a, FetexFeatureCell 
     return found;
 }
 
-FetexFeatureProducts fetexFeatureMean(float distance, float reach) {
+FetexFeatureProducts fetexFeatureMean(float distance, float reach, int profile) {
+    int row = 4 * profile;
     int entries = textureSize(fetexFeatureProfile, 0).x;
     FetexFeatureProducts p;
     p.color = vec4(0.0), p.across = 0.0;
@@ -419,23 +494,55 @@ FetexFeatureProducts fetexFeatureMean(float distance, float reach) {
         FetexFeatureCell a = fetexFeatureCellAt(abs(distance - reach), entries);
         bool both = distance < reach;
         float scale = 0.5 * FETEX_FEATURE_LIMIT / (float(entries - 1) * reach);
-        FetexFeatureIntegrals found = fetexFeatureIntegral(a, b, 0, entries);
+        FetexFeatureIntegrals found = fetexFeatureIntegral(a, b, row, entries);
         p.products = scale * (both ? found.sum : found.difference);
         p.products.x = scale * found.difference.x; // across a curve the slope has the other sign
         p.across = both ? scale * found.first.z : 0.0;
 #if FETEX_FEATURE_KIND == 0
-        found = fetexFeatureIntegral(a, b, 1, entries);
+        found = fetexFeatureIntegral(a, b, row + 1, entries);
         p.color = scale * (both ? found.sum : found.difference);
 #endif
     } else {
         float part = b.first == entries - 1 ? 0.0 : b.part;
-        p.products = mix(fetexFeatureRow(b.first, 0, entries), fetexFeatureRow(b.first + 1, 0, entries), part);
+        p.products = mix(fetexFeatureRow(b.first, row, entries), fetexFeatureRow(b.first + 1, row, entries), part);
 #if FETEX_FEATURE_KIND == 0
-        p.color = mix(fetexFeatureRow(b.first, 1, entries), fetexFeatureRow(b.first + 1, 1, entries), part);
+        p.color = mix(fetexFeatureRow(b.first, row + 1, entries), fetexFeatureRow(b.first + 1, row + 1, entries), part);
 #endif
     }
     return p;
 }
+
+#if FETEX_FEATURE_PROFILES > 1
+// Of the first of the numbers that counts: the number, and 1; 0 if none does.
+uvec2 fetexFeatureCounting(uvec4 numbers, vec4 parts) {
+    return parts.x > 0.0 ? uvec2(numbers.x, 1u) : parts.y > 0.0 ? uvec2(numbers.y, 1u)
+         : parts.z > 0.0 ? uvec2(numbers.z, 1u) : uvec2(numbers.w, parts.w > 0.0);
+}
+
+// Of all profiles that count; one after the other, as mostly there is one. Asked for at the loop's end, as some renderers run
+// through a loop once more to leave it elsewhere.
+FetexFeatureProducts fetexFeatureMixed(FetexFeatureAt at, float reach) {
+    const uvec4 places = uvec4(0u, 4u, 8u, 12u);
+    uvec4 corners = (uvec4(at.profiles) >> places) & 15u, edges = (uvec4(at.profiles) >> (places + 16u)) & 15u;
+    vec4 ofCorners = at.ofCorners, ofEdges = at.ofEdges;
+    FetexFeatureProducts sum = FetexFeatureProducts(vec4(0.0), vec4(0.0), 0.0);
+    uvec2 next = fetexFeatureCounting(corners, ofCorners);
+    int left = textureSize(fetexFeatureProfile, 0).y / 4; // a constant would have the loop unrolled
+    do {
+        next = next.y == 0u ? fetexFeatureCounting(edges, ofEdges) : next;
+        vec4 sameCorners = vec4(equal(corners, uvec4(next.x))), sameEdges = vec4(equal(edges, uvec4(next.x)));
+        float part = dot(ofCorners, sameCorners) + dot(ofEdges, sameEdges);
+        FetexFeatureProducts p = fetexFeatureMean(at.distance, reach, int(next.x));
+        sum.products += part * p.products;
+        sum.color += part * p.color;
+        sum.across += part * p.across;
+        ofCorners *= 1.0 - sameCorners;
+        ofEdges *= 1.0 - sameEdges;
+        next = fetexFeatureCounting(corners, ofCorners);
+    } while (--left > 0 && dot(ofCorners, vec4(1.0)) + dot(ofEdges, vec4(1.0)) > 0.0);
+    return sum;
+}
+#endif
 
 vec3 fetexFeatureUnit(vec3 v) {
     float size = length(v);
@@ -444,7 +551,11 @@ vec3 fetexFeatureUnit(vec3 v) {
 
 // reach: half of what a pixel sees, in texels; 0 for a point.
 vec4 fetexFeatureShown(FetexFeatureAt at, float reach) {
-    FetexFeatureProducts p = fetexFeatureMean(at.distance, reach);
+#if FETEX_FEATURE_PROFILES > 1
+    FetexFeatureProducts p = fetexFeatureMixed(at, reach);
+#else
+    FetexFeatureProducts p = fetexFeatureMean(at.distance, reach, 0);
+#endif
     vec4 base = p.across > 0.0 ? mix(at.base, at.across, p.across / p.products.z) : at.base;
 #if FETEX_FEATURE_KIND == 1
     vec3 n = fetexFeatureUnit(clamp(base.xyz * FETEX_FEATURE_NORMAL_FACTOR - 1.0, -1.0, 1.0));

@@ -22,19 +22,37 @@ std::uint32_t segment_bits(FeatureSegment segment, bool straight) {
     return (k + 1) | (straight ? 8u : 0u);
 }
 
-std::vector<std::uint16_t> texels_of(const FeatureCurvesTexture& t) {
-    std::vector<std::uint16_t> texels;
-    texels.reserve(t.configurations.size());
+/// Four bits each: corners, edges.
+std::uint32_t profile_bits(const FeatureTexelProfiles& profiles) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        word |= std::uint32_t{profiles.corners[k]} << (4 * k) | std::uint32_t{profiles.edges[k]} << (4 * k + 16);
+    return word;
+}
+
+/// With several profiles two words a texel.
+std::vector<std::uint32_t> texels_of(const FeatureCurvesTexture& t) {
+    std::vector<std::uint32_t> texels;
+    texels.reserve(t.configurations.size() * (t.profiles > 1 ? 2 : 1));
     for (std::uint32_t j = 0; j < t.height; ++j) {
         for (std::uint32_t i = 0; i < t.width; ++i) {
             const FeatureSegmentList list = feature_unpack(t.configurations[std::size_t{j} * t.width + i]);
             std::uint32_t word = feature_open_edges(t, i, j) << 8;
             for (std::uint32_t k = 0; k < list.count; ++k)
                 word |= segment_bits(list.segment[k], list.straight[k]) << (4 * k);
-            texels.push_back(static_cast<std::uint16_t>(word));
+            texels.push_back(word);
+            if (t.profiles > 1) texels.push_back(profile_bits(feature_texel_profiles(t, i, j)));
         }
     }
     return texels;
+}
+
+GLuint make_texels(const GladGLContext& gl, const FeatureCurvesTexture& t) {
+    const std::vector<std::uint32_t> words = texels_of(t);
+    if (t.profiles > 1)
+        return make_texture(gl, kTexelUnit, GL_RG32UI, t.width, t.height, GL_RG_INTEGER, GL_UNSIGNED_INT, words.data());
+    const std::vector<std::uint16_t> narrow(words.begin(), words.end());
+    return make_texture(gl, kTexelUnit, GL_R16UI, t.width, t.height, GL_RED_INTEGER, GL_UNSIGNED_SHORT, narrow.data());
 }
 
 /// Distance, gradient and a 0, as the file has them.
@@ -48,23 +66,29 @@ std::vector<std::uint8_t> corners_with_gradients(const FeatureCurvesTexture& t) 
     return out;
 }
 
-/// Rows of products and of their integrals from 0, in entries.
-std::vector<float> profile_rows(const FeatureCurvesTexture& t) {
-    const std::size_t n = t.profile.size();
-    std::vector<float> rows(n * 16);
+/// Rows of products and of their integrals from 0, in entries, of a profile, at the end of `rows`.
+void add_profile_rows(const FeatureCurvesTexture& t, std::uint32_t profile, std::vector<float>& rows) {
+    const std::size_t n = feature_profile_entries(t), first = rows.size();
+    rows.resize(first + n * 16);
     std::array<double, 8> sum{}, before{};
     for (std::size_t k = 0; k < n; ++k) {
         const double distance = static_cast<double>(k) * t.distance_limit / static_cast<double>(n - 1);
-        const FeatureProducts p = feature_profile_mean(t, distance, 0);
+        const FeatureProducts p = feature_profile_mean(t, distance, 0, profile);
         const std::array<double, 8> values = {p.slope,   p.base_slope, p.blend,   p.height,
                                               p.color.r, p.color.g,    p.color.b, p.color.a};
         for (std::size_t c = 0; c < 8; ++c) {
             if (k > 0) sum[c] += (before[c] + values[c]) / 2;
-            const std::size_t at = (c / 4 * n + k) * 4 + c % 4;
+            const std::size_t at = first + (c / 4 * n + k) * 4 + c % 4;
             rows[at] = static_cast<float>(values[c]), rows[at + 8 * n] = static_cast<float>(sum[c]);
         }
         before = values;
     }
+}
+
+std::vector<float> profile_rows(const FeatureCurvesTexture& t) {
+    std::vector<float> rows;
+    for (std::uint32_t profile = 0; profile < t.profiles; ++profile)
+        add_profile_rows(t, profile, rows);
     return rows;
 }
 
@@ -91,7 +115,7 @@ NumberFormat number_format(FeatureNumberFormat format, std::uint32_t channels) {
 
 RuntimeStatus Renderer::State::check_feature_curves(const FeatureCurvesTexture& texture) const {
     const auto side = static_cast<std::uint64_t>(max_texture_side);
-    if (std::max<std::uint64_t>({texture.width + 1, texture.height + 1, texture.profile.size()}) > side)
+    if (std::max<std::uint64_t>({texture.width + 1, texture.height + 1, feature_profile_entries(texture)}) > side)
         return RuntimeError{RuntimeErrc::TextureTooLarge, "this device takes textures of " + std::to_string(side) +
                                                               " texels a side; this one has " +
                                                               std::to_string(texture.width) + "x" +
@@ -150,13 +174,13 @@ RuntimeStatus Renderer::State::upload_feature_curves(const FeatureCurvesTexture&
     feature_curves.programs[static_cast<std::size_t>(FeatureCurvesProgram::Point)] = point.value();
     const TightRows tight(gl());
     auto& textures = feature_curves.textures;
-    textures[kTexelUnit] = make_texture(gl(), kTexelUnit, GL_R16UI, t.width, t.height, GL_RED_INTEGER,
-                                        GL_UNSIGNED_SHORT, texels_of(t).data());
+    textures[kTexelUnit] = make_texels(gl(), t);
     upload_feature_numbers(t);
     textures[kBaseUnit] = make_sample_texture(gl(), kBaseUnit, t.base_format, traits.one_sample ? 1 : t.width + 1,
                                               traits.one_sample ? 1 : t.height + 1, t.base);
-    textures[kProfileUnit] = make_texture(gl(), kProfileUnit, GL_RGBA32F, static_cast<std::uint32_t>(t.profile.size()),
-                                          4, GL_RGBA, GL_FLOAT, profile_rows(t).data());
+    textures[kProfileUnit] =
+        make_texture(gl(), kProfileUnit, GL_RGBA32F, static_cast<std::uint32_t>(feature_profile_entries(t)),
+                     4 * t.profiles, GL_RGBA, GL_FLOAT, profile_rows(t).data());
     if (!t.mips.empty())
         textures[kMipUnit] =
             make_mip_texture(gl(), kMipUnit, GL_RGBA8, t.width, t.height, GL_RGBA,

@@ -195,7 +195,7 @@ FeatureCurvesTraits feature_curves_traits(const FeatureCurvesTexture& t) {
     traits.kind = t.kind, traits.base_format = t.base_format;
     traits.distance_limit = t.distance_limit, traits.height_scale = t.height_scale;
     traits.linear = t.linear, traits.bits16 = t.format == FeatureNumberFormat::Bits16;
-    traits.gradients = !t.gradients.empty(), traits.mips = !t.mips.empty();
+    traits.gradients = !t.gradients.empty(), traits.mips = !t.mips.empty(), traits.profiles = t.profiles;
     traits.one_sample = t.base.size() == fbt_sample_words(silmap_fbt_format(t.base_format));
     for (std::uint32_t j = 0; j < t.height; ++j) {
         for (std::uint32_t i = 0; i < t.width; ++i) {
@@ -214,7 +214,7 @@ std::string feature_curves_specialisation(const FeatureCurvesTraits& t) {
            define("FETEX_FEATURE_LIMIT", real(t.distance_limit)) + define("FETEX_FEATURE_LINEAR", t.linear) +
            define("FETEX_FEATURE_BITS16", t.bits16) + define("FETEX_FEATURE_GRADIENTS", t.gradients) +
            define("FETEX_FEATURE_SEGMENTS", t.segments) + define("FETEX_FEATURE_CURVES", t.curves) +
-           define("FETEX_FEATURE_OPEN", t.open) +
+           define("FETEX_FEATURE_OPEN", t.open) + define("FETEX_FEATURE_PROFILES", t.profiles) +
            define("FETEX_FEATURE_SAMPLES", t.base_format == FeatureSampleFormat::Rgba16) +
            define("FETEX_FEATURE_ONE_SAMPLE", t.one_sample) +
            define("FETEX_FEATURE_NORMAL_FACTOR", real(feature_normal_factor(t.base_format))) +

@@ -68,7 +68,8 @@ struct FeatureCurvesTraits {
     float distance_limit = 1, height_scale = 1;
     bool linear = false, bits16 = false; ///< of its numbers
     bool gradients = false, one_sample = false, mips = false;
-    std::uint32_t segments = 0;        ///< most in a texel
+    std::uint32_t segments = 0; ///< most in a texel
+    std::uint32_t profiles = 1;
     bool curves = false, open = false; ///< some segment isn't straight; some edge is open
     friend bool operator==(const FeatureCurvesTraits&, const FeatureCurvesTraits&) = default;
 };

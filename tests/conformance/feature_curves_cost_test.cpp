@@ -38,7 +38,8 @@ class FeatureCurvesCosts : public TimingTest {
 };
 
 /// Whole columns of texels with curves from north to south, so many of a hundred; no edge is open.
-FeatureCurvesTexture texture_of(double coverage, bool linear, FeatureNumberFormat format, FeatureKind kind) {
+FeatureCurvesTexture texture_of(double coverage, bool linear, FeatureNumberFormat format, FeatureKind kind,
+                                std::uint32_t profiles = 1) {
     constexpr std::uint32_t kSide = 100;
     FeatureCurvesTexture t = random_features(3, {.width = kSide,
                                                  .height = kSide,
@@ -46,6 +47,7 @@ FeatureCurvesTexture texture_of(double coverage, bool linear, FeatureNumberForma
                                                  .linear = linear,
                                                  .kind = kind,
                                                  .entries = 256,
+                                                 .profiles = profiles,
                                                  .coverage = 0,
                                                  .mips = true});
     const auto columns = static_cast<std::uint32_t>(coverage * kSide + 0.5);
@@ -56,6 +58,13 @@ FeatureCurvesTexture texture_of(double coverage, bool linear, FeatureNumberForma
             const FeatureSegment across{FeatureEdge::North, FeatureEdge::South};
             if (j < kSide) t.configurations[j * kSide + i] = feature_pack(across, across);
         }
+    }
+    // Every column's own; corners have that of the column that they are in.
+    for (std::size_t k = 0; k < t.profile_map.size(); ++k) {
+        const std::uint32_t column = static_cast<std::uint32_t>(k % (kSide + 1)), own = column / 8 % profiles;
+        const bool used =
+            column < kSide && t.configurations[std::min<std::size_t>(k / (kSide + 1), kSide - 1) * kSide + column] != 0;
+        t.profile_map[k] = feature_profile_word(own, used ? own : 0, 0);
     }
     EXPECT_TRUE(validate_feature_curves(t).empty());
     return t;
@@ -80,6 +89,22 @@ TEST_F(FeatureCurvesCosts, stayWithinAFewPlainLookups) {
                 }
                 EXPECT_GT(points.median, 0.3); // something is drawn
             }
+        }
+    }
+}
+
+/// As drawings have them: most texels have one of them alone.
+TEST_F(FeatureCurvesCosts, ofSeveralProfiles) {
+    for (const bool linear : {true, false}) {
+        for (const FeatureKind kind : {FeatureKind::Normal, FeatureKind::Color}) {
+            const FeatureCurvesTexture t = texture_of(kAskedCoverage, linear, FeatureNumberFormat::Half, kind, 4);
+            ASSERT_FALSE(renderer_->upload_feature_curves(t).has_value());
+            const double asked = linear ? kAskedForLines : kAskedForCurves;
+            const SamplerCost points = least_cost_of(Sampler::FeatureCurves, asked),
+                              pixels = cost_of(Sampler::FeatureCurvesArea);
+            std::printf("  %s, %s, 4 profiles: points %.2f, pixels %.2f\n", linear ? "lines " : "curves",
+                        kind == FeatureKind::Normal ? "normals" : "colours", points.median, pixels.median);
+            EXPECT_LE(points.lower_quartile, asked);
         }
     }
 }

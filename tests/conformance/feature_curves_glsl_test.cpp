@@ -147,14 +147,41 @@ TEST_P(FeatureCurvesConformance, equalsTheReferenceOnRandomTextures) {
     report("points and pixels");
 }
 
+/// Every corner and every edge's point has one of them by chance.
+TEST_P(FeatureCurvesConformance, equalsTheReferenceWithSeveralProfiles) {
+    std::uint64_t seed = 50;
+    for (const std::uint32_t profiles : {2u, 3u, 5u, 8u, 16u}) {
+        for (const FeatureKind kind : kFeatureKinds) {
+            ++seed;
+            const FeatureCurvesTexture t = texture_of(seed, {.width = 24,
+                                                             .height = 17,
+                                                             .format = kFeatureNumberFormats[seed % 3],
+                                                             .linear = seed % 2 == 0,
+                                                             .kind = kind,
+                                                             .base_map = seed % 5 != 0,
+                                                             .gradients = seed % 4 < 2,
+                                                             .profiles = profiles,
+                                                             .coverage = seed % 3 == 0 ? 0.2 : 0.7});
+            ASSERT_FALSE(renderer_->upload_feature_curves(t).has_value());
+            for (const double magnification : kMagnifications)
+                for (const View& view : views_at(t, magnification))
+                    for (const Filter area : {Filter::Point, Filter::Area})
+                        expect_equal(t, view, {kSide, kSide, 1, area},
+                                     std::to_string(profiles) + " profiles at " + std::to_string(magnification));
+        }
+    }
+    report("several profiles");
+}
+
 /// Each configuration alone, straight and bent, with and without neighbours that leave edges open.
 TEST_P(FeatureCurvesConformance, equalsTheReferenceInEveryConfiguration) {
     const auto all = fetex::feature_configurations();
     std::uint64_t seed = 100;
     for (const fetex::FeatureConfiguration edges : all) {
         for (const bool neighbours : {false, true}) {
-            FeatureCurvesTexture t =
-                texture_of(++seed, {.width = 3, .height = 3, .linear = seed % 3 == 0, .coverage = 1});
+            FeatureCurvesTexture t = texture_of(
+                ++seed,
+                {.width = 3, .height = 3, .linear = seed % 3 == 0, .profiles = seed % 2 == 0 ? 3u : 1u, .coverage = 1});
             if (!neighbours) std::ranges::fill(t.configurations, fetex::FeatureConfiguration{0});
             const fetex::FeatureSegmentList list = fetex::feature_unpack(edges);
             std::array<bool, 2> straight{};
@@ -211,6 +238,7 @@ TEST_P(FeatureCurvesConformance, dropsTheTextureBefore) {
                                                          .format = kFeatureNumberFormats[seed % 3],
                                                          .linear = seed % 2 == 0,
                                                          .kind = kFeatureKinds[seed / 2 % 3],
+                                                         .profiles = seed % 4 == 1 ? 4u : 1u,
                                                          .mips = seed % 3 == 0});
         ASSERT_FALSE(renderer_->upload_feature_curves(t).has_value());
         if (!t.mips.empty()) expect_equal(t, {-1, -1, 20, 20}, size, "levels");

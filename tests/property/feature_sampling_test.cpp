@@ -127,6 +127,102 @@ TEST(FeatureSampler, distanceHasNoJumps) {
     EXPECT_LE(most, 1e-5);
 }
 
+double difference(const std::array<double, kFeatureProfilesMost>& a,
+                  const std::array<double, kFeatureProfilesMost>& b) {
+    double most = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        most = std::max(most, std::abs(a[k] - b[k]));
+    return most;
+}
+
+void for_each_texture_of_profiles(const std::function<void(const FeatureCurvesTexture&)>& visit) {
+    for (std::uint64_t seed = 1; seed <= 24; ++seed)
+        visit(random_features(seed, {.width = kSide,
+                                     .height = kSide,
+                                     .format = test::kFeatureNumberFormats[seed % 3],
+                                     .linear = seed % 4 == 0,
+                                     .profiles = static_cast<std::uint32_t>(2 + seed % 7),
+                                     .coverage = seed % 2 == 0 ? 0.3 : 0.9}));
+}
+
+TEST(FeatureProfiles, partsAreSharesOfOne) {
+    Random random(11);
+    for_each_texture_of_profiles([&](const FeatureCurvesTexture& t) {
+        ASSERT_TRUE(validate_feature_curves(t).empty()) << validate_feature_curves(t)[0].message;
+        for (int n = 0; n < 2000; ++n) {
+            const FeatureAt at = feature_at(t, random.between(0, kSide), random.between(0, kSide));
+            double sum = 0;
+            for (std::size_t k = 0; k < at.profiles.size(); ++k) {
+                EXPECT_GE(at.profiles[k], 0);
+                EXPECT_TRUE(k < t.profiles || at.profiles[k] == 0);
+                sum += at.profiles[k];
+            }
+            EXPECT_NEAR(sum, 1, 1e-12);
+        }
+    });
+}
+
+/// A segment's own, from that of its first end to that of its second, whatever else is in the texel.
+TEST(FeatureProfiles, aCurveHasItsOwn) {
+    for_each_texture_of_profiles([&](const FeatureCurvesTexture& t) {
+        for (std::uint32_t j = 0; j < t.height; ++j)
+            for (std::uint32_t i = 0; i < t.width; ++i) {
+                const FeatureSegmentList list = feature_unpack(t.configurations[j * t.width + i]);
+                const FeatureTexelProfiles own = feature_texel_profiles(t, i, j);
+                for (std::uint32_t k = 0; k < list.count; ++k) {
+                    const FeatureQuadratic q = feature_segment_curve(t, i, j, k);
+                    for (const double u : {0.0, 0.1234, 0.4321, 0.7654, 1.0}) {
+                        std::array<double, kFeatureProfilesMost> wanted{};
+                        wanted[own.edges[feature_edge_index(list.segment[k].first)]] += 1 - u;
+                        wanted[own.edges[feature_edge_index(list.segment[k].second)]] += u;
+                        const FeaturePoint p = feature_curve_at(q, u);
+                        EXPECT_LE(difference(feature_at_local(t, i, j, p.x, p.y).profiles, wanted), 1e-9);
+                    }
+                }
+            }
+    });
+}
+
+/// Seen from both texels, ends of curves included.
+TEST(FeatureProfiles, continueAcrossTexelsEdges) {
+    double most = 0;
+    for_each_texture_of_profiles([&](const FeatureCurvesTexture& t) {
+        for (std::uint32_t j = 0; j + 1 < t.height; ++j)
+            for (std::uint32_t i = 0; i + 1 < t.width; ++i)
+                for (double along = 1.0 / 74; along < 1; along += 1.0 / 37) {
+                    most = std::max({most,
+                                     difference(feature_at_local(t, i, j, 1, along).profiles,
+                                                feature_at_local(t, i + 1, j, 0, along).profiles),
+                                     difference(feature_at_local(t, i, j, along, 1).profiles,
+                                                feature_at_local(t, i, j + 1, along, 0).profiles)});
+                }
+    });
+    EXPECT_LE(most, 1e-4); // corners are taken 2^-20 inside, here 1/74 from one
+}
+
+/// Across curves neither, nor beside the ends of others; where two meet every part may be had within a step.
+TEST(FeatureProfiles, haveNoJumps) {
+    Random random(13);
+    double most = 0;
+    for_each_texture_of_profiles([&](const FeatureCurvesTexture& t) {
+        for_each_segment(t, [&](std::uint32_t i, std::uint32_t j, const FeatureQuadratic& q) {
+            if (feature_unpack(t.configurations[j * t.width + i]).count != 1) return;
+            for (int n = 0; n < 16; ++n) {
+                const FeaturePoint p = feature_curve_at(q, random.between(0.1, 0.9));
+                const double angle = random.between(0, 2 * std::numbers::pi), x = 1e-9 * std::cos(angle),
+                             y = 1e-9 * std::sin(angle);
+                most = std::max(most, difference(feature_at_local(t, i, j, p.x + x, p.y + y).profiles,
+                                                 feature_at_local(t, i, j, p.x - x, p.y - y).profiles));
+            }
+        });
+        for (int n = 0; n < 4000; ++n) {
+            const double x = random.between(0, kSide), y = random.between(0, kSide);
+            most = std::max(most, difference(feature_at(t, x, y).profiles, feature_at(t, x + 1e-9, y + 1e-9).profiles));
+        }
+    });
+    EXPECT_LE(most, 1e-5);
+}
+
 /// A texture of closed and straight curves given by what crosses the texels' edges: every edge at most once.
 struct Crossings {
     /// Where the curve crosses from (x,y) to (x+1,y) or (x,y+1), and its tangent's angle.
@@ -251,7 +347,7 @@ TEST(FeatureSampler, isNotZeroBetweenTwoCorners) {
     const double half = std::numbers::sqrt2 / 2, corner = 0.75 * half;
     for (const std::uint32_t c : {0u, 1u, 2u, 3u})
         feature_set_distance(t, c & 1, c >> 1, c == 0 || c == 3 ? corner : 0.25 * half);
-    for (double along = -0.3; along <= 0.31; along += 0.1)    // the diagonal from the first corner to the last
+    for (double along = -0.3; along <= 0.31; along += 0.1)   // the diagonal from the first corner to the last
         for (double off = -0.15; off <= 0.15; off += 0.05) { // and off it
             const double truth = (0.75 - 2 * std::abs(off)) * half;
             const double d = feature_at(t, 0.5 + along - off, 0.5 + along + off).distance;

@@ -79,6 +79,26 @@ void add_maps(Random& random, FeatureCurvesTexture& t, const RandomFeaturesOptio
     }
 }
 
+/// Edges that no segment ends on have profile 0.
+void add_profile_map(Random& random, FeatureCurvesTexture& t) {
+    std::vector<unsigned> used(feature_corner_count(t)); // bit 0: the north edge, bit 1: the west edge
+    const auto corner = [&](std::uint32_t i, std::uint32_t j) {
+        return std::size_t{j} * (std::size_t{t.width} + 1) + i;
+    };
+    for (std::uint32_t j = 0; j < t.height; ++j)
+        for (std::uint32_t i = 0; i < t.width; ++i)
+            for (const FeatureSegment s : feature_unpack(t.configurations[std::size_t{j} * t.width + i]))
+                for (const FeatureEdge e : {s.first, s.second}) {
+                    const bool horizontal = e == FeatureEdge::North || e == FeatureEdge::South;
+                    used[corner(i + (e == FeatureEdge::East), j + (e == FeatureEdge::South))] |= horizontal ? 1u : 2u;
+                }
+    const auto any = [&](bool is) {
+        return is ? static_cast<unsigned>(random.integer(0, static_cast<int>(t.profiles) - 1)) : 0u;
+    };
+    for (const unsigned edges : used)
+        t.profile_map.push_back(feature_profile_word(any(true), any((edges & 1u) != 0), any((edges & 2u) != 0)));
+}
+
 } // namespace
 
 FeatureCurvesTexture random_features(std::uint64_t seed, const RandomFeaturesOptions& o) {
@@ -89,7 +109,9 @@ FeatureCurvesTexture random_features(std::uint64_t seed, const RandomFeaturesOpt
     add_curves(random, t, o.coverage);
     add_maps(random, t, o);
     t.profile.clear();
-    for (std::uint32_t k = 0; k < o.entries; ++k)
+    t.profiles = o.profiles;
+    if (o.profiles > 1) add_profile_map(random, t);
+    for (std::uint32_t k = 0; k < o.entries * o.profiles; ++k)
         t.profile.push_back({static_cast<float>(random.between(-1, 1)), static_cast<float>(random.between(-1, 1)),
                              static_cast<float>(random.unit()),
                              fbt_pack_sample(random_color(random, false), FbtSampleFormat::Rgba8)[0]});

@@ -18,9 +18,10 @@ struct RandomFeaturesOptions {
     fetex::FeatureSampleFormat base_format = fetex::FeatureSampleFormat::Rgba8;
     bool base_map = true;       ///< else one sample
     bool gradients = true;      ///< ignored with normals, which have them
-    std::uint32_t entries = 17; ///< of the profile
-    double coverage = 0.7;      ///< how many texels have segments
-    bool mips = false;          ///< random ones
+    std::uint32_t entries = 17; ///< of a profile
+    std::uint32_t profiles = 1;
+    double coverage = 0.7; ///< how many texels have segments
+    bool mips = false;     ///< random ones
 };
 
 fetex::FeatureCurvesTexture random_features(std::uint64_t seed, const RandomFeaturesOptions& options = {});

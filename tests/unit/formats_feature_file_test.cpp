@@ -30,6 +30,10 @@ FeatureCurvesTexture full_texture(FeatureSampleFormat samples = FeatureSampleFor
     return random_features(5, {.width = 5, .height = 3, .base_format = samples, .mips = true});
 }
 
+FeatureCurvesTexture three_profiles() {
+    return random_features(6, {.width = 5, .height = 3, .profiles = 3, .mips = true});
+}
+
 FetexFile file_of(FeatureCurvesTexture texture) {
     FetexFile file;
     file.metadata = {{"k", "v"}};
@@ -60,10 +64,13 @@ void expect_same(const FeatureCurvesTexture& a, const FeatureCurvesTexture& b) {
     EXPECT_EQ(a.gradients, b.gradients);
     EXPECT_EQ(a.base, b.base);
     EXPECT_EQ(a.profile, b.profile);
+    EXPECT_EQ(a.profiles, b.profiles);
+    EXPECT_EQ(a.profile_map, b.profile_map);
     EXPECT_EQ(a.mips, b.mips);
 }
 
 TEST(FeatureFile, readsWhatWasWritten) {
+    constexpr std::uint32_t kProfileCounts[] = {16, 1, 2, 3};
     std::uint64_t seed = 0;
     for (const FeatureNumberFormat format : kFeatureNumberFormats) {
         for (const FeatureKind kind : kFeatureKinds) {
@@ -77,6 +84,7 @@ TEST(FeatureFile, readsWhatWasWritten) {
                                                                       .base_format = samples,
                                                                       .base_map = seed % 3 != 0,
                                                                       .gradients = seed % 5 != 0,
+                                                                      .profiles = kProfileCounts[seed % 4],
                                                                       .mips = seed % 7 != 0}));
                 ASSERT_TRUE(validate_feature_curves(*file.feature_curves).empty())
                     << validate_feature_curves(*file.feature_curves)[0].message;
@@ -167,8 +175,34 @@ TEST(FeatureFile, hasTheBytesOfTheSpecification) {
     EXPECT_EQ(payload(8), (Bytes{7, 8, 9, 255}));
 }
 
+/// SPEC.md §2.7: what several profiles add.
+TEST(FeatureFile, hasTheBytesOfTheSpecificationForSeveralProfiles) {
+    FeatureCurvesTexture t = feature_empty_texture(1, 1, FeatureNumberFormat::Bits16, true, 1);
+    t.configurations[0] =
+        feature_pack({FeatureEdge::North, FeatureEdge::South}, {FeatureEdge::North, FeatureEdge::South});
+    t.profiles = 2, t.profile = {{0, 0, 1, 0}, {0, 0, 1, 1u << 24}, {0, 0, 1, 2u << 24}, {0, 0, 1, 3u << 24}};
+    t.profile_map = {feature_profile_word(0, 1, 0), feature_profile_word(1, 0, 0), feature_profile_word(1, 1, 0),
+                     feature_profile_word(0, 0, 0)};
+    ASSERT_TRUE(validate_feature_curves(t).empty()) << validate_feature_curves(t)[0].message;
+    const Bytes bytes = write_file(file_of(t));
+    ContainerView container;
+    ASSERT_FALSE(read_container(container, bytes).has_value());
+    ASSERT_EQ(container.chunks.size(), 8u);
+    const auto payload = [&](std::size_t k) {
+        return Bytes(container.chunks[k].payload.begin(), container.chunks[k].payload.end());
+    };
+    EXPECT_EQ(payload(1)[28], 2); // entries a profile
+    EXPECT_EQ(payload(1)[36], 2); // profiles
+    EXPECT_EQ(payload(6).size(), 64u);
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(payload(6)[16 * k + 15], k);
+    EXPECT_EQ(fourcc_text(container.chunks[7].type), "FCVI");
+    EXPECT_EQ(container.chunks[7].flags, kChunkCritical);
+    EXPECT_EQ(payload(7), (Bytes{0x10, 0, 1, 0, 0x11, 0, 0, 0}));
+}
+
 TEST(FeatureReader, refusesTruncationAtEveryLengthAndACorruptByteAnywhere) {
-    const Bytes good = write_file(file_of(full_texture()));
+    const Bytes good = write_file(file_of(three_profiles()));
     for (std::size_t k = 0; k < good.size(); ++k) {
         EXPECT_NE(code_of(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(k))), FindingCode{}) << k;
         Bytes bytes = good;
@@ -177,8 +211,8 @@ TEST(FeatureReader, refusesTruncationAtEveryLengthAndACorruptByteAnywhere) {
     }
 }
 
-FindingCode with_word(std::size_t word, std::uint32_t value) {
-    Bytes bytes = write_file(file_of(full_texture()));
+FindingCode with_word(std::size_t word, std::uint32_t value, const FeatureCurvesTexture& texture = full_texture()) {
+    Bytes bytes = write_file(file_of(texture));
     ContainerView container;
     EXPECT_FALSE(read_container(container, bytes).has_value());
     store(bytes, static_cast<std::size_t>(container.chunks[1].offset) + 4 * word, value, 4);
@@ -212,11 +246,19 @@ TEST(FeatureReader, refusesHostileHeaders) {
     EXPECT_EQ(with_word(6, 1), FindingCode::FeatureSizeMismatch);
     EXPECT_EQ(with_word(6, 3), FindingCode::FeatureSizeMismatch);
     EXPECT_EQ(with_word(7, 18), FindingCode::FeatureSizeMismatch);
+    for (const std::uint32_t bad : {1u, 17u, 0xffffffffu})
+        EXPECT_EQ(with_word(9, bad), FindingCode::BadFeatureHeader);
+    EXPECT_EQ(with_word(9, 2), FindingCode::MissingChunk); // there is no map of profiles
+    EXPECT_EQ(with_word(9, 0, three_profiles()), FindingCode::MissingChunk);
+    EXPECT_EQ(with_word(9, 2, three_profiles()), FindingCode::FeatureSizeMismatch);
+    EXPECT_EQ(with_word(9, 16, three_profiles()), FindingCode::FeatureSizeMismatch);
+    EXPECT_EQ(with_word(7, 4096, three_profiles()), FindingCode::FeatureSizeMismatch);
 }
 
 /// The chunks of the full texture, changed.
-FindingCode with_chunks(const std::function<void(std::vector<Chunk>&)>& change) {
-    const Bytes good = write_file(file_of(full_texture()));
+FindingCode with_chunks(const std::function<void(std::vector<Chunk>&)>& change,
+                        const FeatureCurvesTexture& texture = full_texture()) {
+    const Bytes good = write_file(file_of(texture));
     ContainerView container;
     EXPECT_FALSE(read_container(container, good).has_value());
     std::vector<Chunk> chunks;
@@ -247,6 +289,39 @@ TEST(FeatureReader, wantsAllChunksAndNoOthersOfTheRightLength) {
     }
     for (const FourCc other : {fourcc("FBTH"), fourcc("BLVH"), fourcc("SLMH"), fourcc("PNCH")})
         EXPECT_EQ(with_chunks([&](Chunks& c) { c.push_back({other, 0, 4, 0, {}}); }), FindingCode::RepresentationKinds);
+}
+
+TEST(FeatureReader, wantsAMapOfSeveralProfilesOfTheRightLength) {
+    using Chunks = std::vector<Chunk>;
+    constexpr std::size_t kMap = 8; // before the levels
+    const auto with_map = [](const std::function<void(Chunks&)>& change) {
+        return with_chunks(change, three_profiles());
+    };
+    ASSERT_EQ(with_map([](Chunks& c) { EXPECT_EQ(fourcc_text(c[kMap].type), "FCVI"); }), FindingCode{});
+    EXPECT_EQ(with_map([](Chunks& c) { c.erase(c.begin() + kMap); }), FindingCode::MissingChunk);
+    EXPECT_EQ(with_map([](Chunks& c) { c[kMap].level = 1; }), FindingCode::UnknownCriticalChunk);
+    for (const int by : {-2, -1, 1, 2})
+        EXPECT_EQ(with_map([&](Chunks& c) { c[kMap].payload.resize(c[kMap].payload.size() + by); }),
+                  FindingCode::FeatureSizeMismatch);
+    for (const std::uint16_t bad : {0x0003, 0x0030, 0x0300, 0x000f, 0x1000, 0x8000, 0xffff})
+        EXPECT_EQ(with_map([&](Chunks& c) {
+                      c[kMap].payload[4] = static_cast<std::uint8_t>(bad);
+                      c[kMap].payload[5] = static_cast<std::uint8_t>(bad >> 8);
+                  }),
+                  FindingCode::FeatureProfileNumber);
+}
+
+TEST(FeatureValidator, placesFaultsOfTheProfileMap) {
+    Bytes bytes = write_file(file_of(three_profiles()));
+    ContainerView container;
+    ASSERT_FALSE(read_container(container, bytes).has_value());
+    const std::uint64_t place = container.chunks[8].offset + 2 * 7;
+    store(bytes, static_cast<std::size_t>(place), 0x0003, 2);
+    reseal(bytes);
+    const auto findings = validate_file(bytes);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].code, FindingCode::FeatureProfileNumber);
+    EXPECT_EQ(findings[0].offset, place);
 }
 
 TEST(FeatureValidator, countsOffsetsFromTheStartOfTheFile) {
@@ -290,6 +365,14 @@ TEST(FeatureValidator, findsEachKindOfFaultInTheMaps) {
         {"no sample", C::FeatureDimensions, F::Rgba8, [](T& t) { t.base.clear(); }},
         {"one entry", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profile.resize(1); }},
         {"many entries", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profile.resize(4097); }},
+        {"no profile", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profiles = 0; }},
+        {"a map of one profile", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profile_map.resize(24); }},
+        {"no map of two", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profiles = 2, t.profile.resize(18); }},
+        {"odd entries of two", C::FeatureDimensions, F::Rgba8, [](T& t) { t.profiles = 2, t.profile_map.resize(24); }},
+        {"an entry each", C::FeatureDimensions, F::Rgba8,
+         [](T& t) { t.profiles = 2, t.profile.resize(2), t.profile_map.resize(24); }},
+        {"many profiles", C::FeatureDimensions, F::Rgba8,
+         [](T& t) { t.profiles = 17, t.profile.resize(34), t.profile_map.resize(24); }},
         {"a level short", C::FeatureDimensions, F::Rgba8, [](T& t) { t.mips.pop_back(); }},
         {"no kind", C::FeatureFormat, F::Rgba8, [](T& t) { t.kind = FeatureKind(3); }},
         {"no sample format", C::FeatureFormat, F::Rgba8, [](T& t) { t.base_format = F(4); }},
@@ -306,6 +389,13 @@ TEST(FeatureValidator, findsEachKindOfFaultInTheMaps) {
     };
     for (const FeatureSampleFormat format : kSilmapSampleFormats)
         EXPECT_TRUE(validate_feature_curves(full_texture(format)).empty());
+    FeatureCurvesTexture unused = feature_empty_texture(2, 2, FeatureNumberFormat::Half, true, 1);
+    unused.profiles = 2, unused.profile.resize(4), unused.profile_map.resize(9);
+    EXPECT_TRUE(validate_feature_curves(unused).empty());
+    unused.profile_map[4] = feature_profile_word(1, 0, 1); // an edge without a curve
+    ASSERT_EQ(validate_feature_curves(unused).size(), 1u);
+    EXPECT_EQ(validate_feature_curves(unused)[0].code, C::FeatureUnusedEdge);
+    EXPECT_EQ(validate_feature_curves(unused)[0].offset, 8u);
     for (const Fault& fault : faults) {
         FeatureCurvesTexture texture = full_texture(fault.format);
         fault.make(texture);

@@ -469,6 +469,7 @@ std::vector<FeatureCurvesTraits> all_feature_curves() {
                 t.open = (switches & 2u) != 0, t.mips = (switches & 4u) != 0;
                 t.bits16 = (switches + segments) % 3 == 0, t.one_sample = (switches + segments) % 2 == 0;
                 t.gradients = kind == FeatureKind::Normal || t.bits16;
+                t.profiles = switches % 4 < 2 ? 1 : 5;
                 if (switches % 3 == 1) t.base_format = FeatureSampleFormat::Rgba16;
                 all.push_back(t);
             }
@@ -508,9 +509,12 @@ TEST_F(Shaders, ofFeatureCurvesCompileByHand) {
         prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
         const std::string tool =
             dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* macros : {"", "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_MIPS 1\n",
-                                   "#define FETEX_FEATURE_LINEAR 1\n#define FETEX_FEATURE_BITS16 1\n",
-                                   "#define FETEX_FEATURE_KIND 2\n#define FETEX_FEATURE_SEGMENTS 1\n"})
+        for (const char* macros :
+             {"", "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_MIPS 1\n",
+              "#define FETEX_FEATURE_LINEAR 1\n#define FETEX_FEATURE_BITS16 1\n",
+              "#define FETEX_FEATURE_KIND 2\n#define FETEX_FEATURE_SEGMENTS 1\n", "#define FETEX_FEATURE_PROFILES 2\n",
+              "#define FETEX_FEATURE_PROFILES 16\n#define FETEX_FEATURE_OPEN 0\n"
+              "#define FETEX_FEATURE_SEGMENTS 1\n"})
             EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
     }
 }
@@ -540,7 +544,8 @@ TEST_F(Shaders, ofFeatureCurvesHaveWhatTheAssetNeeds) {
     EXPECT_EQ(feature_curves_specialisation(lines),
               "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_LIMIT 4.000000000e+00\n#define FETEX_FEATURE_LINEAR "
               "1\n#define FETEX_FEATURE_BITS16 0\n#define FETEX_FEATURE_GRADIENTS 1\n#define FETEX_FEATURE_SEGMENTS "
-              "1\n#define FETEX_FEATURE_CURVES 0\n#define FETEX_FEATURE_OPEN 0\n#define FETEX_FEATURE_SAMPLES "
+              "1\n#define FETEX_FEATURE_CURVES 0\n#define FETEX_FEATURE_OPEN 0\n#define FETEX_FEATURE_PROFILES "
+              "1\n#define FETEX_FEATURE_SAMPLES "
               "0\n#define FETEX_FEATURE_ONE_SAMPLE 0\n#define FETEX_FEATURE_NORMAL_FACTOR "
               "2.007874016e+00\n#define FETEX_FEATURE_HEIGHT_SCALE 1.000000000e+00\n#define FETEX_FEATURE_MIPS 0\n");
     for (const Dialect dialect : kDialects)
@@ -555,7 +560,7 @@ TEST_F(Shaders, ofFeatureCurvesHaveWhatTheAssetNeeds) {
     read << std::ifstream(name).rdbuf();
     const std::string text = read.str();
     ASSERT_GT(text.size(), 1000u);
-    for (const char* absent : {"cos(", "standIn", "fetexFeatureDip", "fetexFeatureBeside"})
+    for (const char* absent : {"cos(", "standIn", "fetexFeatureDip", "fetexFeatureBeside", "fetexFeatureMixed"})
         EXPECT_EQ(count(text, absent), 0u) << absent;
     EXPECT_EQ(count(text, "=fetexFeatureCrossing("), 2u);
 }
