@@ -140,8 +140,13 @@ std::string options_text(const CurvesRequest& request, const FeatureCurvesBuild&
                                    build.texture.distance_limit, how.smooth);
     if (how.linear) text += " linear";
     if (how.curves != "all") text += " curves=" + how.curves;
-    if (!build.profile.name.empty()) text += " profile=" + fetex::to_valid_utf8(build.profile.name);
-    text += fmt::format(" profile-width={:g}", build.profile.width);
+    std::string names, widths;
+    for (const FeatureProfile& p : build.profiles) {
+        const char* separator = &p == build.profiles.data() ? "" : ",";
+        names += separator + fetex::to_valid_utf8(p.name), widths += fmt::format("{}{:g}", separator, p.width);
+    }
+    if (!names.empty()) text += " profile=" + names;
+    text += " profile-width=" + widths;
     if (how.base_height > 0) text += fmt::format(" base-height={:g}", how.base_height);
     if (how.kind == "color" && how.base.empty()) text += " base-color=" + how.base_color;
     return text;
@@ -203,9 +208,9 @@ std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions
         ->type_name("N");
     CLI::Option* profile = add(
         app.add_option("--profile", options.profile,
-                       "What is done near feature curves: crease, groove, ridge, seam, one of the network's profiles, "
-                       "or a JSON file of one ($defs/profile of cli/schema/network.schema.json); default: as the "
-                       "network says, else crease"));
+                       "What is done near all feature curves: crease, groove, ridge, seam, one of the network's "
+                       "profiles, or a JSON file of one ($defs/profile of cli/schema/network.schema.json); default: "
+                       "as the network and its curves say, else crease"));
     profile->type_name("NAME|FILE");
     add(app.add_option("--profile-width", options.profile_width,
                        "How far a profile of those four reaches, in the drawing's units; default: a 64th of its "

@@ -59,7 +59,9 @@ Json info_json(const fetex::FeatureCurvesTexture& t) {
         {"distanceBytes", t.distances.size()},
         {"gradientBytes", t.gradients.size()},
         {"baseBytes", base_samples(t) * fetex::bitmap_sample_bytes(t.base_format)},
-        {"profileEntries", t.profile.size()},
+        {"profileEntries", fetex::feature_profile_entries(t)},
+        {"profiles", t.profiles},
+        {"profileMapBytes", 2 * t.profile_map.size()},
         {"mipBytes", 4 * t.mips.size()},
         {"mipLevels", mip_levels_of(t)},
         {"texels", {{"empty", counts.texels[0]}, {"oneSegment", counts.texels[1]}, {"twoSegments", counts.texels[2]}}},
@@ -75,9 +77,12 @@ void print_info(const fetex::FeatureCurvesTexture& t) {
                kind_name(t.kind), numbers_name(t.format), silmap_samples_name(t.base_format));
     fmt::print(
         "  on the GPU  {} bytes: {} in configurations, {} in signatures, {} in distances, {} in gradients, {} in "
-        "the base map, {} entries of a profile\n",
+        "the base map, {} entries of {}\n",
         fetex::feature_gpu_bytes(t), 2 * t.configurations.size(), t.signatures.size(), t.distances.size(),
-        t.gradients.size(), base_samples(t) * fetex::bitmap_sample_bytes(t.base_format), t.profile.size());
+        t.gradients.size(), base_samples(t) * fetex::bitmap_sample_bytes(t.base_format),
+        fetex::feature_profile_entries(t),
+        t.profiles == 1 ? "a profile"
+                        : fmt::format("each of {} profiles, {} in their map", t.profiles, 2 * t.profile_map.size()));
     fmt::print("  texels      {} with a segment, {} with two: {:.1f} %; {} segments, {} of them straight{}\n",
                counts.texels[1], counts.texels[2], 100 * coverage(t, counts), counts.segments, counts.straight,
                t.linear ? " (linear)" : "");

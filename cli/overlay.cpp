@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/overlay.h"
 
+#include <array>
+
 #include "cli/pen.h"
 #include "formats/feature_curve_geometry.h"
 
@@ -9,6 +11,10 @@ namespace {
 
 constexpr Ink kHalo{1, 1, 1, 0.7F}, kBoundary{0.85F, 0, 0.45F, 1}, kLink{0.1F, 0.35F, 0.9F, 0.6F},
     kSide{0.45F, 0.45F, 0.45F, 0.5F}, kPoint{1, 0.85F, 0, 1}, kRim{0.1F, 0.1F, 0.1F, 1};
+/// Of feature curves, by profile; then from the first again.
+constexpr std::array<Ink, 8> kProfiles = {
+    kBoundary,           {0.1F, 0.35F, 0.9F, 1},   {0, 0.55F, 0.2F, 1},     {0.9F, 0.45F, 0, 1}, {0.5F, 0.1F, 0.75F, 1},
+    {0, 0.6F, 0.65F, 1}, {0.55F, 0.35F, 0.15F, 1}, {0.35F, 0.35F, 0.35F, 1}};
 /// Pixels a cell from which its sides and other links are drawn, and the texels' colours.
 constexpr double kRoomForSides = 12, kRoomForTexels = 28;
 
@@ -190,8 +196,8 @@ class CurvesOverlay {
 
     void draw() {
         if (frame_.room() >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
-        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, 2 * frame_.thickness(), kHalo); });
-        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, frame_.thickness(), kBoundary); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, 2 * frame_.thickness(), &kHalo); });
+        each_texel([&](std::uint32_t i, std::uint32_t j) { draw_segments(i, j, frame_.thickness(), nullptr); });
         if (frame_.room() >= kRoomForSides) each_texel([&](std::uint32_t i, std::uint32_t j) { draw_knots(i, j); });
     }
 
@@ -211,17 +217,24 @@ class CurvesOverlay {
         pen_.dashed(frame_.at(i, j), frame_.at(i, j + 1.0), 1, kSide);
     }
 
-    void draw_segments(std::uint32_t i, std::uint32_t j, double thickness, const Ink& ink) {
+    /// Without an ink in those of the profiles, that of the nearer end.
+    void draw_segments(std::uint32_t i, std::uint32_t j, double thickness, const Ink* ink) {
         constexpr int kMostChords = 32;
+        const fetex::FeatureTexelProfiles profiles = fetex::feature_texel_profiles(texture_, i, j);
         const int chords = std::clamp(static_cast<int>(frame_.room() / 4), 1, kMostChords);
         for (std::uint32_t k = 0; k < segments(i, j).count; ++k) {
             const fetex::FeatureQuadratic q = fetex::feature_segment_curve(texture_, i, j, k);
+            const fetex::FeatureSegment s = segments(i, j).segment[k];
+            const auto profile = [&](fetex::FeatureEdge e) -> const Ink& {
+                return kProfiles[profiles.edges[fetex::feature_edge_index(e)] % kProfiles.size()];
+            };
             const auto at = [&](int n) {
                 const fetex::FeaturePoint p = fetex::feature_curve_at(q, static_cast<double>(n) / chords);
                 return frame_.at(i + p.x, j + p.y);
             };
             for (int n = 0; n < chords; ++n)
-                pen_.line(at(n), at(n + 1), thickness, ink);
+                pen_.line(at(n), at(n + 1), thickness,
+                          ink != nullptr ? *ink : profile(2 * n < chords ? s.first : s.second));
         }
     }
 

@@ -21,10 +21,29 @@ CurvesOutcome curves_outcome(const FeatureCurvesBuild& build) {
             t.base.size() > 2,
             t.mips.empty() ? 0 : fetex::fbt_mip_levels(t.width, t.height),
             static_cast<double>(t.distance_limit),
-            build.profile,
+            build.profiles,
             build.stats,
             {}};
 }
+
+namespace {
+
+std::string profiles_text(const std::vector<FeatureProfile>& profiles) {
+    std::string text = profiles.size() > 1 ? "profiles " : "profile ";
+    for (const FeatureProfile& p : profiles)
+        text += fmt::format("{}{} of {:g} units", &p == profiles.data() ? "" : ", ",
+                            p.name.empty() ? "of a file" : fetex::to_valid_utf8(p.name), p.width);
+    return text;
+}
+
+nlohmann::ordered_json profiles_json(const std::vector<FeatureProfile>& profiles) {
+    auto all = nlohmann::ordered_json::array();
+    for (const FeatureProfile& p : profiles)
+        all.push_back({{"name", fetex::to_valid_utf8(p.name)}, {"width", p.width}, {"inner", p.inner}});
+    return all;
+}
+
+} // namespace
 
 std::string curves_text(const CurvesOutcome& o) {
     const FeatureCurvesStats& s = o.stats;
@@ -44,9 +63,8 @@ std::string curves_text(const CurvesOutcome& o) {
                         "{} flat\n",
                         s.snapping.curved, s.snapping.invalid, s.snapping.problems, s.snapping.fitted,
                         s.snapping.straightened, s.straightened_by_rounding, s.flat);
-    text += fmt::format("  distances  up to {:.3f} texels: {} corners; profile {} of {:g} units{}\n", o.limit,
-                        s.corners_near, o.profile.name.empty() ? "of a file" : o.profile.name, o.profile.width,
-                        o.base_map ? "; a base map" : "");
+    text += fmt::format("  distances  up to {:.3f} texels: {} corners; {}{}\n", o.limit, s.corners_near,
+                        profiles_text(o.profiles), o.base_map ? "; a base map" : "");
     return text;
 }
 
@@ -62,8 +80,7 @@ nlohmann::ordered_json curves_json(const CurvesOutcome& o) {
             {"mipLevels", o.mip_levels},
             {"limit", o.limit},
             {"gpuBytes", s.gpu_bytes},
-            {"profile",
-             {{"name", fetex::to_valid_utf8(o.profile.name)}, {"width", o.profile.width}, {"inner", o.profile.inner}}},
+            {"profiles", profiles_json(o.profiles)},
             {"network", {{"curves", s.curves}, {"segments", s.segments}, {"otherProfiles", s.curves_other_profile}}},
             {"texels", {{"oneSegment", s.texels_one}, {"twoSegments", s.texels_two}}},
             {"snapping",
@@ -74,6 +91,7 @@ nlohmann::ordered_json curves_json(const CurvesOutcome& o) {
               {"endsCut", s.snapping.ends_cut},
               {"folded", s.snapping.folded},
               {"lostInside", s.snapping.lost_inside},
+              {"profileEdges", s.snapping.edges_of_profiles},
               {"texelsMoved", s.moved},
               {"farthest", s.farthest}}},
             {"fitting",

@@ -19,7 +19,7 @@ struct CurvesOutcome {
     bool linear = false, base_map = false;
     std::uint32_t mip_levels = 0; ///< 0: none
     double limit = 0;             ///< texels
-    FeatureProfile profile;
+    std::vector<FeatureProfile> profiles;
     FeatureCurvesStats stats;
     std::string profile_file = {}; ///< for dependencies; empty: none
 };

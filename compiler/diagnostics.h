@@ -115,7 +115,7 @@ inline constexpr int kFeatureMoved = 5141;   ///< texels in which feature curves
 inline constexpr int kFeatureEndsCut = 5142; ///< ends of feature curves inside a texel that end on its boundary instead (count)
 inline constexpr int kFeatureLost = 5143;    ///< feature curves that lie inside one texel, or fold back in it, and don't show (count)
 inline constexpr int kFeatureStraightened = 5144; ///< segments of feature curves that are straight, and bend where they end, as no valid quadratic was found (count)
-inline constexpr int kFeatureProfiles = 5148; ///< curves ask for other profiles than the one that their texture has (count)
+inline constexpr int kFeatureProfiles = 5148; ///< curves that have another profile than they ask for: where they cross an edge of a texel with others, or beyond the 16 of a texture (count)
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

@@ -46,13 +46,15 @@ struct Band {
     std::int32_t lines_end = 0; ///< horizontal grid lines up to this are the band's
     EdgeView<EdgePoint> points;
     EdgeView<EdgeDirection> directions; ///< nothing if everything is straight
+    EdgeView<EdgeProfile> profiles;     ///< nothing if all are 0
     SnappedTexel* texels = nullptr;     ///< of all rows
     CurveArms* arms = nullptr;          ///< of all curves
 
     Band(const Grid& grid, GridRows of, InsertedCurves& out)
         : width(static_cast<std::int32_t>(grid.width)), rows(of),
           lines_end(of.last + (of.last == static_cast<std::int32_t>(grid.height) ? 1 : 0)), points(out.points.view()),
-          directions(out.directions.view()), texels(out.texels.data()), arms(out.arms.data()) {}
+          directions(out.directions.view()), profiles(out.profiles.view()), texels(out.texels.data()),
+          arms(out.arms.data()) {}
 
     [[nodiscard]] bool has(std::int32_t i, std::int32_t j) const { return i >= 0 && i < width && rows.has(j); }
     [[nodiscard]] bool owns(const GridCrossing& c) const {
@@ -88,6 +90,10 @@ class Way {
     /// Of vertices on the edge they are added with their knot, from all of its lines.
     void add_direction(const GridCrossing& c, double dx, double dy) {
         if (band_.owns(c)) Band::at(band_.directions, c).add(dx, dy);
+    }
+
+    void add_profile(const GridCrossing& c, std::uint8_t profile) {
+        if (band_.profiles.edges != nullptr && band_.owns(c)) Band::at(band_.profiles, c).add(profile);
     }
 
     void finish(InsertionCounts& counts) {
@@ -131,16 +137,18 @@ class Inserter {
     void insert(std::uint32_t k) {
         const LatticeCurve& curve = curves_.curves[k];
         const PlanarPoint from = planar_point(curves_, grid_, curve.a), to = planar_point(curves_, grid_, curve.b);
-        if (!curve.straight) return insert_quadratic(k, {from, planar_point(grid_, curve.middle), to});
+        if (!curve.straight) return insert_quadratic(k, {from, planar_point(grid_, curve.middle), to}, curve.profile);
         Way way(band_, k, true);
-        if (band_.directions.edges == nullptr) {
+        if (band_.directions.edges == nullptr && band_.profiles.edges == nullptr) {
             way = walk_rows(grid_, from, to, band_.rows, way);
         } else {
             const double dx = static_cast<double>(to.x - from.x) / static_cast<double>(grid_.px),
                          dy = static_cast<double>(to.y - from.y) / static_cast<double>(grid_.py);
             walk_rows(grid_, from, to, band_.rows, [&](const GridCrossing& c) {
                 way(c);
-                if (!lies_on(from, c) && !lies_on(to, c)) way.add_direction(c, dx, dy);
+                way.add_profile(c, curve.profile);
+                if (band_.directions.edges != nullptr && !lies_on(from, c) && !lies_on(to, c))
+                    way.add_direction(c, dx, dy);
             });
         }
         way.finish(counts_);
@@ -149,10 +157,11 @@ class Inserter {
     [[nodiscard]] const InsertionCounts& counts() const { return counts_; }
 
   private:
-    void insert_quadratic(std::uint32_t k, const PlanarQuadratic& curve) {
+    void insert_quadratic(std::uint32_t k, const PlanarQuadratic& curve, std::uint8_t profile) {
         Way way(band_, k, false);
         for (const CurveCrossing& c : walk_.walk(curve)) {
             way(c.at);
+            way.add_profile(c.at, profile);
             if (c.t > 0 && c.t < 1) way.add_direction(c.at, c.dx, c.dy);
         }
         way.finish(counts_);
@@ -222,6 +231,8 @@ InsertedCurves insert_curves(const LatticeCurves& curves, const Grid& grid, bool
     out.arms.resize(curves.curves.size());
     out.points = EdgePoints(grid.width, grid.height);
     if (tangents) out.directions = EdgeDirections(grid.width, grid.height);
+    const auto other = [](const LatticeCurve& c) { return c.profile != 0; };
+    if (std::ranges::any_of(curves.curves, other)) out.profiles = EdgeProfiles(grid.width, grid.height);
     const BandLists bands(curves, grid, tangents);
     std::vector<InsertionCounts> counts(bands.count());
     parallel_for(bands.count(), threads, [&](std::size_t k) {
@@ -229,6 +240,8 @@ InsertedCurves insert_curves(const LatticeCurves& curves, const Grid& grid, bool
         const Band band(grid, rows, out);
         out.points.reset_rows(static_cast<std::size_t>(rows.first), static_cast<std::size_t>(band.lines_end));
         if (tangents) out.directions.reset_rows(0, std::size_t{grid.height} + 1);
+        if (!out.profiles.empty())
+            out.profiles.reset_rows(static_cast<std::size_t>(rows.first), static_cast<std::size_t>(band.lines_end));
         Inserter inserter(curves, grid, band);
         for (const std::uint32_t curve : bands.curves(k))
             inserter.insert(curve);

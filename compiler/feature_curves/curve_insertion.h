@@ -31,6 +31,7 @@ struct InsertedCurves {
     std::vector<SnappedTexel> texels; ///< row by row
     EdgePoints points;
     EdgeDirections directions; ///< empty if everything is straight
+    EdgeProfiles profiles;     ///< empty if all are 0
     std::vector<CurveArms> arms;
     InsertionCounts counts;
 };

@@ -66,6 +66,12 @@ DistanceGradient normal_at_corner(const TextureSegment& s, const Nearest& at, Ca
     return {sign * t.y / length, -sign * t.x / length};
 }
 
+std::uint8_t profile_at(const TextureSegments& segments, const Nearest& at) {
+    const TextureSegment s = segments.segment(at.i, at.j, at.segment);
+    const bool first = squared_distance(at.point, s.from) <= squared_distance(at.point, s.to);
+    return segments.profile(at.i, at.j, first ? s.edges.first : s.edges.second);
+}
+
 /// A row of corners at a time.
 class Rasteriser {
   public:
@@ -133,6 +139,7 @@ class Rasteriser {
         const double distance = found ? std::min(std::sqrt(best.squared), map_.limit) : map_.limit;
         map_.distances[at] = distance;
         if (!(distance < map_.limit)) return;
+        if (segments_.has_profiles()) map_.profiles[at] = profile_at(segments_, best);
         const CanvasPoint p = corner(i, j);
         map_.gradients[at] = distance > budget::kFeatureOnCurve
                                  ? DistanceGradient{(p.x - best.point.x) / distance, (p.y - best.point.y) / distance}
@@ -177,17 +184,38 @@ class Rasteriser {
     std::vector<Nearest> nearest_; ///< of a row's corners
 };
 
+/// Corners at the limit, beside others.
+void spread_profiles(DistanceMap& map) {
+    const std::size_t columns = std::size_t{map.width} + 1, rows = std::size_t{map.height} + 1;
+    const std::vector<std::uint8_t> known = map.profiles;
+    for (std::size_t j = 0; j < rows; ++j) {
+        for (std::size_t i = 0; i < columns; ++i) {
+            double least = map.limit;
+            if (map.distances[j * columns + i] < least) continue;
+            for (std::size_t y = j - (j > 0); y <= std::min(j + 1, rows - 1); ++y) {
+                for (std::size_t x = i - (i > 0); x <= std::min(i + 1, columns - 1); ++x) {
+                    const std::size_t beside = y * columns + x;
+                    if (map.distances[beside] < least)
+                        least = map.distances[beside], map.profiles[j * columns + i] = known[beside];
+                }
+            }
+        }
+    }
+}
+
 } // namespace
 
 DistanceMap distance_map(const TextureSegments& segments, double limit, unsigned threads) {
-    DistanceMap map{segments.width(), segments.height(), limit, {}, {}};
+    DistanceMap map{segments.width(), segments.height(), limit, {}, {}, {}};
     const std::size_t columns = std::size_t{map.width} + 1, rows = std::size_t{map.height} + 1;
     map.distances.resize(columns * rows), map.gradients.resize(columns * rows);
+    if (segments.has_profiles()) map.profiles.resize(columns * rows);
     parallel_for_chunks(rows, kRows, threads, [&](std::size_t begin, std::size_t end) {
         Rasteriser rasteriser(segments, map);
         for (std::size_t j = begin; j < end; ++j)
             rasteriser.row(static_cast<std::uint32_t>(j));
     });
+    if (segments.has_profiles()) spread_profiles(map);
     return map;
 }
 

@@ -24,6 +24,9 @@ struct DistanceMap {
     /// From the nearest point of any curve towards the corner, of length 1; smoothed, of at most 1; 0 at the limit. At
     /// a corner that lies on a curve: at right angles to it, towards the side that the corner counts as.
     std::vector<DistanceGradient> gradients;
+    /// If the texture has several: of the nearest curve, there of the end that is nearer; at the limit that of the
+    /// nearest corner beside, if one is below it.
+    std::vector<std::uint8_t> profiles;
 };
 
 /// Exact but for rounding (straight segments) and budget::kDistanceAccuracy (others). limit > 0, texels; threads: 0:

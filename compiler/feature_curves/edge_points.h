@@ -43,6 +43,17 @@ struct EdgeDirection {
     }
 };
 
+/// The profile of the curves that cross an edge: the first one's.
+struct EdgeProfile {
+    std::uint8_t number = 0;
+    bool known = false, others = false; ///< others: some curve has another
+
+    void add(std::uint8_t profile) {
+        if (!known) number = profile, known = true;
+        others |= number != profile;
+    }
+};
+
 /// Of an EdgeGrid: where it is in memory.
 template <class T> struct EdgeView {
     T* edges = nullptr;
@@ -86,5 +97,6 @@ template <class T> class EdgeGrid {
 
 using EdgePoints = EdgeGrid<EdgePoint>;
 using EdgeDirections = EdgeGrid<EdgeDirection>;
+using EdgeProfiles = EdgeGrid<EdgeProfile>;
 
 } // namespace fetexc

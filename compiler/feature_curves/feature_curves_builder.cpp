@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 
 #include "compiler/diagnostics.h"
 #include "compiler/feature_curves/curve_texture.h"
 #include "compiler/feature_curves/feature_samples.h"
+#include "compiler/feature_curves/texture_profiles.h"
 #include "compiler/parallel.h"
 #include "compiler/scene/lattice.h"
 #include "formats/bitmap_samples.h"
@@ -26,42 +26,31 @@ constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::size_t kRows = 16;       ///< of corners, for a thread at a time
 constexpr double kMostDistance = 65504; ///< texels: what the format takes
 
-/// Of the curves: what most of them ask for, the first of equals; none: the preset crease.
-std::string wanted_profile(const Network& network) {
-    std::map<std::string, std::size_t> counts;
-    std::string best = std::string(kProfilePresets.front());
-    std::size_t most = 0;
-    for (const NetworkCurve& c : network.curves) // in their order, so that the first to lead stays
-        if (!c.profile.empty() || !network.profile.empty()) ++counts[c.profile.empty() ? network.profile : c.profile];
-    for (const NetworkCurve& c : network.curves) {
-        const std::string& name = c.profile.empty() ? network.profile : c.profile;
-        if (!name.empty() && counts[name] > most) best = name, most = counts[name];
-    }
-    return best;
+TextureProfiles profiles_for(const Network& network, const FeatureCurvesOptions& options) {
+    return options.profile ? TextureProfiles(*options.profile) : TextureProfiles(network);
 }
 
-FeatureProfile choose_profile(const Network& network, const FeatureCurvesOptions& options, FeatureCurvesBuild& build) {
-    if (options.profile) return *options.profile;
-    const std::string name = wanted_profile(network);
-    std::string other;
-    for (const NetworkCurve& c : network.curves) {
-        const std::string& own = c.profile.empty() ? network.profile : c.profile;
-        if (own.empty() || own == name) continue;
-        if (build.stats.curves_other_profile++ == 0) other = own;
-    }
-    if (build.stats.curves_other_profile > 0) {
-        build.diagnostics.push_back({Severity::Warning, diag::kFeatureProfiles,
-                                     std::to_string(build.stats.curves_other_profile) +
-                                         " curves ask for other profiles (\"" + other + "\" is one) than \"" + name +
-                                         "\", which the whole texture has",
-                                     ""});
-    }
-    return *find_profile(network, name);
+/// What curves of several profiles lose.
+void tell_profiles(const TextureProfiles& profiles, std::uint64_t overlaid, FeatureCurvesBuild& build) {
+    const auto warn = [&](std::uint64_t count, const std::string& text) {
+        if (count > 0)
+            build.diagnostics.push_back(
+                {Severity::Warning, diag::kFeatureProfiles, std::to_string(count) + text, std::string()});
+    };
+    const std::string first = "\"" + profiles.profiles().front().name + "\"";
+    warn(profiles.curves_beyond(), " curves have the profile " + first + " instead of \"" + profiles.name_beyond() +
+                                       "\" and others: a texture has " + std::to_string(fetex::kFeatureProfilesMost));
+    warn(overlaid, " lines or curves lie on others of another profile, and have theirs");
+    warn(build.stats.snapping.edges_of_profiles,
+         " edges of texels are crossed by curves of several profiles: the first one's counts there");
+    build.stats.curves_other_profile = profiles.curves_beyond() + overlaid;
 }
 
-/// Whatever distance a point of a texel has within the profile's width, its texel's corners are at most a diagonal
+/// Whatever distance a point of a texel has within a profile's width, its texel's corners are at most a diagonal
 /// farther.
-double limit_for(const FeatureProfile& profile, double scale) { return profile.width * scale + std::numbers::sqrt2; }
+double limit_for(const std::vector<FeatureProfile>& profiles, double scale) {
+    return std::ranges::max(profiles, {}, &FeatureProfile::width).width * scale + std::numbers::sqrt2;
+}
 
 bool makes_linear(const Network& network, const FeatureCurvesOptions& options) {
     return options.linear || std::ranges::all_of(network.curves, [](const NetworkCurve& c) {
@@ -69,15 +58,18 @@ bool makes_linear(const Network& network, const FeatureCurvesOptions& options) {
            });
 }
 
-Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions& options) {
+Result<SnappedCurves> snapped(const Network& network, const FeatureCurvesOptions& options,
+                              const TextureProfiles& profiles, std::uint64_t& overlaid) {
     const GridSize size = options.size;
     if (makes_linear(network, options)) {
-        auto lines = lattice_lines(network, size.width, size.height);
+        auto lines = lattice_lines(network, size.width, size.height, &profiles);
         if (!lines) return lines.error();
+        overlaid = lines.value().overlaid;
         return snap_lines(lines.value(), size.width, size.height, options.threads);
     }
-    auto curves = lattice_curves(network);
+    auto curves = lattice_curves(network, &profiles);
     if (!curves) return curves.error();
+    overlaid = curves.value().overlaid;
     return snap_quadratics(curves.value(), size.width, size.height, options.threads);
 }
 
@@ -91,6 +83,15 @@ FeatureCurvesTexture write_curves(const SnappedCurves& curves, bool linear, cons
     for (Diagnostic& d : rounding_diagnostics(written))
         build.diagnostics.push_back(std::move(d));
     return std::move(written.texture);
+}
+
+/// Of the edges' points, for now.
+void add_profile_map(const SnappedCurves& curves, std::size_t profiles, FeatureCurvesTexture& t) {
+    t.profiles = static_cast<std::uint32_t>(profiles);
+    if (profiles == 1) return;
+    t.profile_map.resize(fetex::feature_corner_count(t));
+    for (std::size_t k = 0; k < curves.north_profile.size(); ++k)
+        t.profile_map[k] = fetex::feature_profile_word(0, curves.north_profile[k], curves.west_profile[k]);
 }
 
 void count(const SnappedCurves& curves, const DistanceMap& map, FeatureCurvesBuild& build) {
@@ -122,6 +123,7 @@ DistanceMap add_distances(const FeatureCurvesOptions& options, FeatureCurvesText
             for (std::uint32_t i = 0; i <= t.width; ++i, ++at) {
                 const auto row = static_cast<std::uint32_t>(j);
                 fetex::feature_set_distance(t, i, row, map.distances[at]);
+                if (!map.profiles.empty()) t.profile_map[at] |= fetex::feature_profile_word(map.profiles[at], 0, 0);
                 if (gradients) fetex::feature_set_gradient(t, i, row, {map.gradients[at].x, map.gradients[at].y});
             }
         }
@@ -134,7 +136,8 @@ bool out_of_range(GridSize size) {
 }
 
 /// On the GPU.
-std::uint64_t bytes_at(GridSize size, const FeatureCurvesOptions& options, bool linear) {
+std::uint64_t bytes_at(GridSize size, const FeatureCurvesOptions& options, bool linear,
+                       const std::vector<FeatureProfile>& profiles) {
     const std::uint64_t corners = (std::uint64_t{size.width} + 1) * (std::uint64_t{size.height} + 1);
     const std::uint64_t numbers =
         fetex::feature_signature_numbers(linear) + 1 + (options.kind == FeatureKind::Normal ? 2 : 0);
@@ -142,7 +145,8 @@ std::uint64_t bytes_at(GridSize size, const FeatureCurvesOptions& options, bool 
     return 2 * std::uint64_t{size.width} * size.height +
            corners * numbers * fetex::feature_number_bytes(options.numbers) +
            samples * fetex::bitmap_sample_bytes(options.sample_format) +
-           kFeatureProfileEntries * sizeof(fetex::FeatureProfileEntry) +
+           std::uint64_t{profile_entries(profiles)} * profiles.size() * sizeof(fetex::FeatureProfileEntry) +
+           (profiles.size() > 1 ? 2 * corners : 0) +
            (options.mips ? 4 * fetex::fbt_mip_samples(size.width, size.height) : 0);
 }
 
@@ -158,20 +162,25 @@ Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const 
         return Error{ErrorClass::Usage, diag::kSizeOutOfRange, "the size must be 1 to 16384 texels on each side", ""};
     FeatureCurvesBuild build;
     build.stats.curves = network.curves.size(), build.stats.segments = segment_count(network);
-    build.profile = choose_profile(network, options, build);
+    const TextureProfiles profiles = profiles_for(network, options);
+    build.profiles = profiles.profiles();
+    std::uint64_t overlaid = 0;
     if (progress) progress("curves", 0);
-    auto curves = snapped(network, options);
+    auto curves = snapped(network, options, profiles, overlaid);
     if (!curves) return curves.error();
+    if (curves.value().north_profile.empty()) build.profiles.resize(1);
     const double scale = texels_per_unit(network, options.size);
-    const double limit = options.limit > 0 ? options.limit : limit_for(build.profile, scale);
+    const double limit = options.limit > 0 ? options.limit : limit_for(build.profiles, scale);
     build.texture = write_curves(curves.value(), makes_linear(network, options), options, limit, build);
     build.texture.kind = options.kind;
+    add_profile_map(curves.value(), build.profiles.size(), build.texture);
     if (progress) progress("distances", 0.5);
     const DistanceMap map = add_distances(options, build.texture);
-    add_profile(build.profile, scale, build.texture);
+    add_profiles(build.profiles, scale, build.texture);
     add_base(options, scale, build.texture);
     if (options.mips) build.texture.mips = fetex::feature_make_mips(build.texture);
     count(curves.value(), map, build);
+    tell_profiles(profiles, overlaid, build);
     for (Diagnostic& d : snap_diagnostics(curves.value()))
         build.diagnostics.push_back(std::move(d));
     build.moves = std::move(curves.value().moves);
@@ -183,8 +192,9 @@ Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network,
     const Result<Extent> extent = make_extent(network.width, network.height);
     if (!extent) return extent.error();
     const bool linear = makes_linear(network, options);
+    const std::vector<FeatureProfile> profiles = profiles_for(network, options).profiles();
     const auto fits = [&](std::uint32_t side) {
-        return bytes_at(grid_for(extent.value(), side), options, linear) <= max_bytes;
+        return bytes_at(grid_for(extent.value(), side), options, linear, profiles) <= max_bytes;
     };
     if (!fits(1))
         return Error{ErrorClass::Unsupported, diag::kFeatureBudget,

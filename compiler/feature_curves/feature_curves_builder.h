@@ -25,7 +25,7 @@ struct FeatureCurvesOptions {
     /// are known.
     double limit = 0;
     std::uint32_t smooth = kGradientIterations; ///< iterations
-    std::optional<FeatureProfile> profile;      ///< for all curves; none: as the network says
+    std::optional<FeatureProfile> profile;      ///< for all curves; none: as they and the network say
     /// Without an image: one sample. Heights are in user units here.
     BaseImage base;
     Rgba base_color;      ///< straight; of colours without an image
@@ -43,13 +43,13 @@ struct FeatureCurvesStats {
     double farthest = 0;                          ///< of them: texels
     std::uint64_t texels_one = 0, texels_two = 0; ///< with one segment, two
     std::uint64_t corners_near = 0;               ///< nearer than the limit
-    std::uint64_t curves_other_profile = 0;       ///< that ask for another than the texture's (W5148)
+    std::uint64_t curves_other_profile = 0;       ///< that ask for another than the texture's, or lie on others (W5148)
     std::uint64_t gpu_bytes = 0;
 };
 
 struct FeatureCurvesBuild {
     fetex::FeatureCurvesTexture texture;
-    FeatureProfile profile; ///< what the texture has
+    std::vector<FeatureProfile> profiles; ///< what the texture has, by number
     FeatureCurvesStats stats;
     std::vector<FeatureMove> moves; ///< of snapping
     std::vector<Diagnostic> diagnostics;
@@ -67,7 +67,7 @@ Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network,
 /// Texels that a user unit has: the mean of both sides'.
 double texels_per_unit(const Network& network, GridSize size);
 
-/// Entries of a texture's profile.
+/// Entries of a profile.
 inline constexpr std::uint32_t kFeatureProfileEntries = 256;
 
 } // namespace fetexc

@@ -33,7 +33,7 @@ FbtColor color_of_normal(const NormalVector& n, FeatureSampleFormat format) {
 
 FbtColor grey(double v) { return {v, v, v, 1}; }
 
-/// Heights without an image: so that the profile's and this, 0, are in the middle of what grey can show.
+/// Heights without an image: so that the profiles' and this, 0, are in the middle of what grey can show.
 void centre_heights(FeatureCurvesTexture& t) {
     float most = 0;
     for (const fetex::FeatureProfileEntry& e : t.profile)
@@ -50,18 +50,29 @@ void add_one_sample(const FeatureCurvesOptions& options, FeatureCurvesTexture& t
     if (t.kind == FeatureKind::Height) centre_heights(t);
 }
 
-} // namespace
-
-void add_profile(const FeatureProfile& profile, double scale, FeatureCurvesTexture& texture) {
-    texture.profile.clear();
-    for (std::uint32_t k = 0; k < kFeatureProfileEntries; ++k) {
-        const double d = k * static_cast<double>(texture.distance_limit) / (kFeatureProfileEntries - 1) / scale;
+void add_table(const FeatureProfile& profile, double scale, std::uint32_t entries, FeatureCurvesTexture& texture) {
+    for (std::uint32_t k = 0; k < entries; ++k) {
+        const double d = k * static_cast<double>(texture.distance_limit) / (entries - 1) / scale;
         const Rgba color = profile_color(profile, d).value_or(kBlack);
         texture.profile.push_back(
             {static_cast<float>(scale * profile_height(profile, d)), static_cast<float>(profile_slope(profile, d)),
              static_cast<float>(profile_blend(profile, d)),
              fetex::fbt_pack_sample(premultiplied_color(color), fetex::FbtSampleFormat::Rgba8)[0]});
     }
+}
+
+} // namespace
+
+std::uint32_t profile_entries(const std::vector<FeatureProfile>& profiles) {
+    const auto [narrowest, widest] = std::ranges::minmax(profiles, {}, &FeatureProfile::width);
+    const double entries = kFeatureProfileEntries * std::ceil(widest.width / narrowest.width);
+    return static_cast<std::uint32_t>(std::min(entries, double{fetex::kFeatureProfileMost}));
+}
+
+void add_profiles(const std::vector<FeatureProfile>& profiles, double scale, FeatureCurvesTexture& texture) {
+    texture.profile.clear();
+    for (const FeatureProfile& profile : profiles)
+        add_table(profile, scale, profile_entries(profiles), texture);
 }
 
 void add_base(const FeatureCurvesOptions& options, double scale, FeatureCurvesTexture& texture) {

@@ -34,6 +34,7 @@ struct KnotLine {
     fetex::FeaturePoint from, to;
     fetex::FeaturePoint leaves, arrives; ///< tangents at both vertices; an arm's second is nothing
     bool straight = true;
+    std::uint8_t profile = 0; ///< its number
 };
 
 struct Knot {

@@ -19,6 +19,7 @@ struct Joint {
     std::uint32_t a = 0, b = 0;
     LatticePoint middle;
     bool straight = true;
+    std::uint8_t profile = 0;
 };
 
 /// Exact: differences are below 2^30.
@@ -35,17 +36,18 @@ class Collector {
         if (s.degree == 1) return add_line(first, last);
         const LatticePoint middle = snap(s.p[1]);
         if (cross(first, middle, last) != 0)
-            joints.push_back({merge.add(first), merge.add(last), middle, false});
+            joints.push_back({merge.add(first), merge.add(last), middle, false, profile});
         else
             add_folded(s, first, last);
     }
 
     VertexMerge merge;
     std::vector<Joint> joints;
+    std::uint8_t profile = 0; ///< of what is added
 
   private:
     void add_line(const LatticePoint& a, const LatticePoint& b) {
-        joints.push_back({merge.add(a), merge.add(b), {}, true});
+        joints.push_back({merge.add(a), merge.add(b), {}, true, profile});
     }
 
     /// A quadratic on a line may turn beyond its ends.
@@ -92,7 +94,7 @@ void take_leaders(const Collector& collected, LatticeCurves& out) {
     };
     FlatIndex<CurveKey, CurveHash> known(collected.joints.size());
     for (const Joint& joint : collected.joints) {
-        LatticeCurve curve{vertex(joint.a), vertex(joint.b), joint.middle, joint.straight};
+        LatticeCurve curve{vertex(joint.a), vertex(joint.b), joint.middle, joint.straight, joint.profile};
         if (curve.a == curve.b) continue;
         // Ends have moved since.
         if (!curve.straight && cross(out.vertices[curve.a], curve.middle, out.vertices[curve.b]) == 0)
@@ -100,7 +102,11 @@ void take_leaders(const Collector& collected, LatticeCurves& out) {
         if (curve.straight) curve.middle = {};
         const auto [low, high] = std::minmax(curve.a, curve.b);
         const CurveKey key{std::uint64_t{low} << 32 | high, curve.straight ? ~std::uint64_t{0} : packed(curve.middle)};
-        if (known.try_emplace(key, 0).second) out.curves.push_back(curve);
+        const auto [first, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(out.curves.size()));
+        if (is_new)
+            out.curves.push_back(curve);
+        else
+            out.overlaid += out.curves[first].profile != curve.profile;
     }
 }
 
@@ -109,19 +115,23 @@ void take_leaders(const Collector& collected, LatticeCurves& out) {
 bool LatticeCurves::linear() const { return std::ranges::all_of(curves, &LatticeCurve::straight); }
 
 LatticeCurves lattice_curves(const LatticeLines& lines) {
-    LatticeCurves out{lines.extent, lines.vertices, {}};
+    LatticeCurves out{lines.extent, lines.vertices, {}, lines.overlaid};
     out.curves.reserve(lines.lines.size());
-    for (const auto& [a, b] : lines.lines)
-        out.curves.push_back({a, b, {}, true});
+    for (std::size_t k = 0; k < lines.lines.size(); ++k)
+        out.curves.push_back({lines.lines[k][0],
+                              lines.lines[k][1],
+                              {},
+                              true,
+                              lines.profiles.empty() ? std::uint8_t{0} : lines.profiles[k]});
     return out;
 }
 
-Result<LatticeCurves> lattice_curves(const Network& network) {
+Result<LatticeCurves> lattice_curves(const Network& network, const TextureProfiles* profiles) {
     const Result<Extent> extent = make_extent(network.width, network.height);
     if (!extent) return extent.error();
     const Result<Network> quadratics = to_quadratics(network, quadratic_tolerance(network));
     if (!quadratics) return quadratics.error();
-    LatticeCurves out{extent.value(), {}, {}};
+    LatticeCurves out{extent.value(), {}, {}, 0};
     Collector collected(segment_count(quadratics.value()));
     const LatticeScale scale = lattice_scale(out.extent);
     const GuardBox box = guard_box(out.extent);
@@ -135,6 +145,7 @@ Result<LatticeCurves> lattice_curves(const Network& network) {
             else
                 clip_to_guard_box(scaled, box, inside);
         }
+        collected.profile = profiles != nullptr ? profiles->number_of(curve) : std::uint8_t{0};
         for (const CanvasSegment& s : inside)
             collected.add(s);
     }

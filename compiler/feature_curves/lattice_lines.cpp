@@ -14,10 +14,14 @@
 namespace fetexc {
 namespace {
 
-using Line = std::array<std::uint32_t, 2>;
+/// Between numbered points of a VertexMerge.
+struct Line {
+    std::uint32_t a = 0, b = 0;
+    std::uint8_t profile = 0;
+};
 
-/// Lines between numbered points of a VertexMerge.
-std::vector<Line> add_lines(const Network& chords, const Extent& extent, VertexMerge& merge) {
+std::vector<Line> add_lines(const Network& chords, const Extent& extent, const TextureProfiles* profiles,
+                            VertexMerge& merge) {
     std::vector<Line> lines;
     std::vector<CanvasSegment> inside;
     const LatticeScale scale = lattice_scale(extent);
@@ -31,8 +35,9 @@ std::vector<Line> add_lines(const Network& chords, const Extent& extent, VertexM
             else
                 clip_to_guard_box(line, box, inside);
         }
+        const std::uint8_t profile = profiles != nullptr ? profiles->number_of(curve) : std::uint8_t{0};
         for (const CanvasSegment& s : inside)
-            lines.push_back({merge.add(snap(s.p[0])), merge.add(snap(s.p[1]))});
+            lines.push_back({merge.add(snap(s.p[0])), merge.add(snap(s.p[1])), profile});
     }
     return lines;
 }
@@ -55,23 +60,30 @@ void take_leaders(const std::vector<Line>& lines, const VertexMerge& merge, Latt
     };
     FlatIndex<std::uint64_t, PairHash> known(lines.size());
     for (const Line& line : lines) {
-        const std::uint32_t a = vertex(line[0]), b = vertex(line[1]);
+        const std::uint32_t a = vertex(line.a), b = vertex(line.b);
+        if (a == b) continue;
         const auto [low, high] = std::minmax(a, b);
-        if (a != b && known.try_emplace(std::uint64_t{low} << 32 | high, 0).second) out.lines.push_back({a, b});
+        const auto [first, is_new] =
+            known.try_emplace(std::uint64_t{low} << 32 | high, static_cast<std::uint32_t>(out.lines.size()));
+        if (is_new)
+            out.lines.push_back({a, b}), out.profiles.push_back(line.profile);
+        else
+            out.overlaid += out.profiles[first] != line.profile;
     }
 }
 
 } // namespace
 
-Result<LatticeLines> lattice_lines(const Network& network, std::uint32_t width, std::uint32_t height) {
+Result<LatticeLines> lattice_lines(const Network& network, std::uint32_t width, std::uint32_t height,
+                                   const TextureProfiles* profiles) {
     const Result<Extent> extent = make_extent(network.width, network.height);
     if (!extent) return extent.error();
     const double texel = std::min(network.width / width, network.height / height);
     const Result<Network> chords = to_lines(network, budget::kFeatureChord * texel);
     if (!chords) return chords.error();
-    LatticeLines out{extent.value(), {}, {}};
+    LatticeLines out{extent.value(), {}, {}, {}};
     VertexMerge merge(segment_count(chords.value()) + 1);
-    const std::vector<Line> lines = add_lines(chords.value(), out.extent, merge);
+    const std::vector<Line> lines = add_lines(chords.value(), out.extent, profiles, merge);
     merge.run();
     take_leaders(lines, merge, out);
     return out;

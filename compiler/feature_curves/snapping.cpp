@@ -27,7 +27,7 @@ class Snapper {
           inside_(curves.vertices.size()), degree_(curves.vertices.size()) {
         InsertedCurves inserted = insert_curves(curves, grid_, tangents, threads);
         points_ = std::move(inserted.points), directions_ = std::move(inserted.directions);
-        arms_of_ = std::move(inserted.arms);
+        profiles_ = std::move(inserted.profiles), arms_of_ = std::move(inserted.arms);
         out_.width = width, out_.height = height;
         out_.texels = std::move(inserted.texels);
         out_.stats.crossings = inserted.counts.crossings, out_.stats.segments = inserted.counts.segments;
@@ -39,6 +39,7 @@ class Snapper {
             add_to_knots(k);
         insert_knots();
         settle_points();
+        if (!profiles_.empty()) settle_profiles();
         if (directions_.empty()) {
             out_.moves = measure_moves(out_, points_, knots_, threads_);
         } else {
@@ -93,7 +94,8 @@ class Snapper {
                                local(curve.b),
                                tangent(curve, curve.a),
                                tangent(curve, curve.b),
-                               curve.straight});
+                               curve.straight,
+                               curve.profile});
     }
 
     void add_arm(const LatticeCurve& curve, std::uint32_t vertex, FeatureEdge e, double position) {
@@ -105,7 +107,8 @@ class Snapper {
                                fetex::feature_point(e, position),
                                tangent(curve, vertex),
                                {},
-                               curve.straight});
+                               curve.straight,
+                               curve.profile});
     }
 
     /// In its texel.
@@ -163,6 +166,7 @@ class Snapper {
             if (is_curved(knot, shape)) texel(knot.i, knot.j).curved |= shape.segments;
             add_end_directions(knot, ends);
         }
+        if (!profiles_.empty()) add_end_profiles(knot, ends);
         knots_.push_back({knot, std::move(shape), std::move(ends)});
     }
 
@@ -183,6 +187,35 @@ class Snapper {
             add(l.vertex, l.leaves);
             if (l.other != kNone) add(l.other, l.arrives);
         }
+    }
+
+    void add_end_profiles(const Knot& knot, const std::vector<FeatureEdge>& ends) {
+        const auto add = [&](std::uint32_t vertex, std::uint8_t profile) {
+            const FeatureEdge e = ends[index_in(knot, vertex)];
+            if (e != FeatureEdge{}) profiles_.at(knot.i, knot.j, e).add(profile);
+        };
+        for (const KnotLine& l : knot.lines) {
+            add(l.vertex, l.profile);
+            if (l.other != kNone) add(l.other, l.profile);
+        }
+    }
+
+    /// Of the edges that segments end on.
+    void settle_profiles() {
+        const std::size_t columns = std::size_t{grid_.width} + 1, rows = std::size_t{grid_.height} + 1;
+        out_.north_profile.assign(columns * rows, 0), out_.west_profile.assign(columns * rows, 0);
+        bool several = false;
+        for (std::uint32_t j = 0; j < rows; ++j) {
+            for (std::uint32_t i = 0; i < columns; ++i) {
+                for (const FeatureEdge e : {FeatureEdge::North, FeatureEdge::West}) {
+                    if (!out_.is_used(i, j, e)) continue;
+                    const EdgeProfile& p = profiles_.at(i, j, e);
+                    out_.profile(i, j, e) = p.number, several |= p.number != 0;
+                    out_.stats.edges_of_profiles += p.others;
+                }
+            }
+        }
+        if (!several) out_.north_profile.clear(), out_.west_profile.clear(); // the others are off the canvas
     }
 
     /// Means of the edges that segments end on.
@@ -233,6 +266,7 @@ class Snapper {
     unsigned threads_;
     EdgePoints points_;
     EdgeDirections directions_; ///< empty if everything is straight
+    EdgeProfiles profiles_;     ///< empty if all are 0
     UnionFind inside_;          ///< vertices joined by lines that leave no texel
     std::vector<std::uint32_t> degree_;
     std::vector<CurveArms> arms_of_; ///< by curve

@@ -41,6 +41,7 @@ struct SnapStats {
     std::uint64_t ends_cut = 0, folded = 0, lost_inside = 0;
     std::uint64_t curved = 0, invalid = 0; ///< segments that aren't straight, and those of them that weren't valid
     std::uint64_t problems = 0, fitted = 0, straightened = 0; ///< local problems, solved ones, segments made straight
+    std::uint64_t edges_of_profiles = 0; ///< edges with a point that curves of several profiles cross
 };
 
 struct SnappedTexel {
@@ -57,6 +58,7 @@ struct SnappedCurves {
     /// (width+1)·(height+1): of the north edge of texel (i,j), and of its west edge.
     std::vector<double> north, west;
     std::vector<double> north_angle, west_angle; ///< the same of tangents, in [0, π); empty if everything is straight
+    std::vector<std::uint8_t> north_profile, west_profile; ///< the same of profiles; empty if all are 0
     SnapStats stats;
     std::vector<FeatureMove> moves; ///< row by row
 
@@ -72,6 +74,9 @@ struct SnappedCurves {
     }
     [[nodiscard]] double& angle(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
         return is_vertical(e) ? west_angle[corner(i, j, e)] : north_angle[corner(i, j, e)];
+    }
+    [[nodiscard]] std::uint8_t& profile(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) {
+        return is_vertical(e) ? west_profile[corner(i, j, e)] : north_profile[corner(i, j, e)];
     }
     [[nodiscard]] const SnappedTexel& texel(std::uint32_t i, std::uint32_t j) const {
         return texels[std::size_t{j} * width + i];

@@ -13,7 +13,8 @@ CanvasSegment curve_of(const TextureSegment& s) {
 
 TextureSegments::TextureSegments(const fetex::FeatureCurvesTexture& texture, unsigned threads)
     : width_(texture.width), height_(texture.height), configurations_(texture.configurations),
-      north_(fetex::feature_corner_count(texture)), west_(north_.size()), occupied_(width_, height_) {
+      profile_map_(texture.profile_map), north_(fetex::feature_corner_count(texture)), west_(north_.size()),
+      occupied_(width_, height_) {
     if (!texture.linear) middles_.resize(2 * configurations_.size());
     // What a word of the bits of a column has belongs to one thread.
     parallel_for_chunks(std::size_t{height_} + 1, OccupiedTexels::kWord, threads,

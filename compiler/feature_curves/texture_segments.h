@@ -71,6 +71,15 @@ class TextureSegments {
     [[nodiscard]] std::uint32_t height() const { return height_; }
     [[nodiscard]] const OccupiedTexels& occupied() const { return occupied_; }
 
+    [[nodiscard]] bool has_profiles() const { return !profile_map_.empty(); }
+    /// Of the point on an edge of texel (i,j). Precondition: has_profiles.
+    [[nodiscard]] std::uint8_t profile(std::uint32_t i, std::uint32_t j, fetex::FeatureEdge e) const {
+        using enum fetex::FeatureEdge;
+        const std::size_t corner =
+            (std::size_t{j} + (e == South ? 1 : 0)) * (std::size_t{width_} + 1) + i + (e == East ? 1 : 0);
+        return static_cast<std::uint8_t>(profile_map_[corner] >> (e == North || e == South ? 4 : 8) & 15u);
+    }
+
     /// visit(segment) for those of texel (i,j), in the order of its configuration.
     template <class Visit> void visit_texel(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
         const fetex::FeatureSegmentList list = fetex::feature_unpack(configurations_[texel(i, j)]);
@@ -111,6 +120,7 @@ class TextureSegments {
 
     std::uint32_t width_, height_;
     std::span<const fetex::FeatureConfiguration> configurations_;
+    std::span<const std::uint16_t> profile_map_;      ///< the texture's; corners' profiles aren't looked at
     std::vector<double> north_, west_;                ///< positions, by the texels' upper left corners
     std::vector<std::optional<CanvasPoint>> middles_; ///< two a texel; none in a linear texture
     OccupiedTexels occupied_;

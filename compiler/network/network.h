@@ -27,7 +27,7 @@ struct Network {
     double width = 0, height = 0; ///< user units, > 0
     std::vector<NetworkCurve> curves;
     std::vector<FeatureProfile> profiles = {}; ///< by name
-    std::string profile = {};                  ///< what curves without one have; empty: the texture's
+    std::string profile = {};                  ///< what curves without one have; empty: what most curves have
 };
 
 /// Larger sides of the canvas: a preset that is named without a width.

@@ -164,27 +164,6 @@ TEST(FeatureBuilder, heightsWithoutAnImageAreAroundTheMiddle) {
     EXPECT_NEAR(fetex::feature_base(b.texture, 0, 0).r * 3, 1.5, 3.0 / 255);
 }
 
-TEST(FeatureBuilder, takesTheProfileThatMostCurvesAskForAndTellsOfOthers) {
-    Network network{40,
-                    20,
-                    {line({1, 1}, {9, 9}, "ridge"), line({1, 9}, {9, 1}, "seam"), line({11, 1}, {19, 9}, "seam"),
-                     line({21, 1}, {29, 9})}};
-    const FeatureCurvesBuild most = built(network, options_at(40, 20));
-    EXPECT_EQ(most.profile.shape, ProfileShape::Seam);
-    EXPECT_EQ(most.stats.curves_other_profile, 1u);
-    ASSERT_EQ(std::ranges::count(most.diagnostics, diag::kFeatureProfiles, &Diagnostic::code), 1);
-
-    network.profile = "ridge"; // of the last curve too: the first of two equals
-    const FeatureCurvesBuild first = built(network, options_at(40, 20));
-    EXPECT_EQ(first.profile.shape, ProfileShape::Ridge);
-    EXPECT_EQ(first.stats.curves_other_profile, 2u);
-
-    FeatureCurvesOptions own = options_at(40, 20);
-    own.profile = preset_profile("groove", 1);
-    EXPECT_EQ(std::ranges::count(built(network, own).diagnostics, diag::kFeatureProfiles, &Diagnostic::code), 0);
-    EXPECT_EQ(built(one_line(), options_at(40, 20)).profile.shape, ProfileShape::Crease);
-}
-
 TEST(FeatureBuilder, takesAsManyTexelsAsTheBytesAllow) {
     for (const bool image : {false, true}) {
         for (const std::uint64_t bytes : {std::uint64_t{5000}, std::uint64_t{100000}, std::uint64_t{123457}}) {

@@ -105,6 +105,31 @@ def crease():
     write("crease.json", (128, 128), {"fold": {"preset": "crease", "width": 9, "height": 4}}, "fold", curves)
 
 
+def panel():
+    """Four profiles: piping around, seams that cross grooves, and folds that run out of a seam."""
+    c = 0.5523 * 24
+    ring = {"name": "piping", "closed": True, "start": [36, 12], "profile": "piping",
+            "segments": [[204, 12], points(204 + c, 12, 228, 36 - c, 228, 36), [228, 204],
+                         points(228, 204 + c, 204 + c, 228, 204, 228), [36, 228],
+                         points(36 - c, 228, 12, 204 + c, 12, 204), [12, 36], points(12, 36 - c, 36 - c, 12, 36, 12)]}
+    curves = [ring]
+    for k, y in enumerate((70, 120, 170)):
+        curves.append({"name": f"groove {k}", "start": [12, y], "profile": "groove",
+                       "segments": [points(84, y + 34, 156, y - 34, 228, y + 9)]})
+    for k, x in enumerate((80, 160)):
+        curves.append({"name": f"seam {k}", "start": [x, 12], "profile": "seam",
+                       "segments": [points(x - 30, 84, x + 40, 150, x - 6, 228)]})
+    for k, (x, y) in enumerate(((73, 46), (80, 104), (89, 152), (84, 203), (153, 44), (160, 92), (170, 144), (165, 194))):
+        side = -1 if k % 2 == 0 else 1
+        curves.append({"name": f"fold {k}", "start": points(x + 3 * side, y), "profile": "fold",
+                       "segments": [points(x + 18 * side, y - 4, x + 32 * side, y + 6)]})
+    write("panel.json", (240, 240),
+          {"piping": {"preset": "ridge", "width": 7, "height": 5, "color": [0.8, 0.6, 0.3]},
+           "groove": {"preset": "groove", "width": 5, "height": 2.5, "color": [0.15, 0.2, 0.4]},
+           "seam": {"preset": "seam", "width": 9, "height": 2, "color": [0.7, 0.2, 0.2]},
+           "fold": {"preset": "crease", "width": 6, "height": 2.5, "color": [0.2, 0.5, 0.3]}}, "seam", curves)
+
+
 def normal_map(size=64):
     """Bumps, green up."""
     def height(x, y):
@@ -130,4 +155,5 @@ leaf()
 tiling()
 burst()
 crease()
+panel()
 normal_map()
