@@ -145,24 +145,35 @@ class Measure {
 
     /// A segment that the table replaced by others goes by way of where these meet.
     static double detour(std::uint32_t segment, SegmentSet segments, const TexelPoints& t) {
-        if (segments == kCrossing) return distance_to_chord(t.crossing(), t.chord(segment));
+        return farthest_detour(1u << segment, segments, t);
+    }
+    static FeatureEdge hub_of(SegmentSet segments, std::uint32_t segment) {
         const auto hub = static_cast<EdgeSet>(edges_of(segments) & ~edges_of_segment(segment));
-        return distance_to_chord(t.at(fetex::kFeatureEdges[static_cast<std::size_t>(std::countr_zero(hub))]),
-                                 t.chord(segment));
+        return fetex::kFeatureEdges[static_cast<std::size_t>(std::countr_zero(hub))];
+    }
+    /// Of a set of such segments.
+    static double farthest_detour(unsigned replaced, SegmentSet segments, const TexelPoints& t) {
+        double most = 0;
+        const bool crossing = segments == kCrossing && replaced != 0;
+        const FeaturePoint centre = crossing ? t.crossing() : FeaturePoint{};
+        for (; replaced != 0; replaced &= replaced - 1) {
+            const auto segment = static_cast<std::uint32_t>(std::countr_zero(replaced));
+            const FeaturePoint by = crossing ? centre : t.at(hub_of(segments, segment));
+            most = std::max(most, distance_to_chord(by, t.chord(segment)));
+        }
+        return most;
     }
 
     [[nodiscard]] FeatureMove move_of(std::uint32_t i, std::uint32_t j, const SnappedTexel& texel,
                                       const Found& f) const {
         const TexelPoints t(curves_, i, j);
-        double merged = 0, rerouted = 0;
+        double merged = 0;
         const unsigned edges = edges_of(texel.segments) | f.edges;
         for (const FeatureEdge e : fetex::kFeatureEdges)
             if (edges >> fetex::feature_edge_index(e) & 1u)
                 merged = std::max(merged, points_.at(i, j, e).move(t.position(e)));
         const unsigned replaced = texel.inserted & ~unsigned{texel.segments};
-        for (unsigned left = replaced; left != 0; left &= left - 1)
-            rerouted =
-                std::max(rerouted, detour(static_cast<std::uint32_t>(std::countr_zero(left)), texel.segments, t));
+        const double rerouted = farthest_detour(replaced, texel.segments, t);
         const unsigned kinds = f.kinds | kEdgeMerged * unsigned{merged > 0} | kRerouted * unsigned{replaced != 0};
         return {i, j, static_cast<std::uint8_t>(kinds), std::max(merged, f.vertices) + f.detour + rerouted};
     }

@@ -16,6 +16,16 @@ using fetex::FeaturePoint;
 
 constexpr EdgeSet bit(FeatureEdge e) { return static_cast<EdgeSet>(1u << fetex::feature_edge_index(e)); }
 
+struct EdgeList {
+    std::array<FeatureEdge, 4> edge{};
+    std::size_t count = 0;
+
+    [[nodiscard]] std::size_t size() const { return count; }
+    [[nodiscard]] auto begin() const { return edge.begin(); }
+    [[nodiscard]] auto end() const { return edge.begin() + count; }
+    FeatureEdge operator[](std::size_t k) const { return edge[k]; }
+};
+
 class Shaper {
   public:
     explicit Shaper(const Knot& knot) : knot_(knot) {
@@ -40,10 +50,10 @@ class Shaper {
         return fetex::feature_point(e, points_[fetex::feature_edge_index(e)].position());
     }
 
-    [[nodiscard]] std::vector<FeatureEdge> edges() const {
-        std::vector<FeatureEdge> out;
+    [[nodiscard]] EdgeList edges() const {
+        EdgeList out;
         for (const FeatureEdge e : fetex::kFeatureEdges)
-            if (shape_.edges & bit(e)) out.push_back(e);
+            if (shape_.edges & bit(e)) out.edge[out.count++] = e;
         return out;
     }
 
@@ -52,7 +62,7 @@ class Shaper {
             const FeaturePoint p = point(e);
             return p.x == v.at.x && p.y == v.at.y;
         };
-        const std::vector<FeatureEdge> joined = edges();
+        const EdgeList joined = edges();
         if (std::ranges::any_of(joined, at)) return false;
         if (joined.size() < 2) return true;
         return joined.size() == 2 && !on_line(v.at, {point(joined[0]), point(joined[1])});
@@ -70,7 +80,7 @@ class Shaper {
     }
 
     void add_segments() {
-        const std::vector<FeatureEdge> joined = edges();
+        const EdgeList joined = edges();
         if (joined.size() == 4) shape_.segments = kCrossing;
         if (joined.size() == 2) insert(joined[0], joined[1]);
         if (joined.size() != 3) return;
@@ -81,7 +91,7 @@ class Shaper {
     }
 
     /// How far the lines' ends and middles are from segments that meet on the edge.
-    [[nodiscard]] double farthest(FeatureEdge hub, const std::vector<FeatureEdge>& joined) const {
+    [[nodiscard]] double farthest(FeatureEdge hub, const EdgeList& joined) const {
         const auto away = [&](FeaturePoint p) {
             double least = distance(p, point(hub));
             for (const FeatureEdge e : joined)

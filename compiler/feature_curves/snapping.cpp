@@ -2,6 +2,7 @@
 #include "compiler/feature_curves/snapping.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "compiler/feature_curves/curve_displacement.h"
@@ -128,14 +129,24 @@ class Snapper {
                                      on(x == 0, West))};
     }
 
+    /// By counting; parts of a knot stay in their order.
+    template <class Part> void sort_by_knot(std::vector<Part>& parts) {
+        std::vector<std::uint32_t> next(inside_.size() + 1);
+        for (const Part& part : parts)
+            ++next[inside_.find(part.vertex) + 1];
+        std::partial_sum(next.begin(), next.end(), next.begin());
+        std::vector<Part> sorted(parts.size());
+        for (const Part& part : parts)
+            sorted[next[inside_.find(part.vertex)]++] = part;
+        parts = std::move(sorted);
+    }
+
     /// Everything by knot, knots by their first vertex.
     void insert_knots() {
         for (std::uint32_t v = 0; v < curves_.vertices.size(); ++v)
             if (degree_[v] > 0 && on_canvas(column(planar(v)), row(planar(v)))) vertices_.push_back(knot_vertex(v));
         const auto knot_of = [&](const auto& part) { return inside_.find(part.vertex); };
-        std::ranges::stable_sort(vertices_, {}, knot_of);
-        std::ranges::stable_sort(arms_, {}, knot_of);
-        std::ranges::stable_sort(knot_lines_, {}, knot_of);
+        sort_by_knot(vertices_), sort_by_knot(arms_), sort_by_knot(knot_lines_);
         std::size_t vertex = 0, arm = 0, line = 0;
         const auto next = [&](const auto& parts, std::size_t& at, std::uint32_t knot) {
             const std::size_t first = at;
