@@ -56,10 +56,13 @@ struct Band {
           directions(out.directions.view()), profiles(out.profiles.view()), texels(out.texels.data()),
           arms(out.arms.data()) {}
 
-    [[nodiscard]] bool has(std::int32_t i, std::int32_t j) const { return i >= 0 && i < width && rows.has(j); }
+    [[nodiscard]] bool has(std::int32_t i, std::int32_t j) const { return is_column(i) && rows.has(j); }
     [[nodiscard]] bool owns(const GridCrossing& c) const {
         if (c.vertical) return rows.has(c.cell);
-        return c.cell >= 0 && c.cell < width && c.line >= rows.first && c.line < lines_end;
+        return is_column(c.cell) && c.line >= rows.first && c.line < lines_end;
+    }
+    [[nodiscard]] bool is_column(std::int32_t i) const {
+        return static_cast<std::uint32_t>(i) < static_cast<std::uint32_t>(width); // −1 is a large number
     }
     [[nodiscard]] SnappedTexel& texel(std::int32_t i, std::int32_t j) const {
         return texels[std::ptrdiff_t{j} * width + i];

@@ -64,8 +64,8 @@ class GridSteps {
     }
 
     /// Part of the cell.
-    [[nodiscard]] double position(std::int64_t pitch) const {
-        return (static_cast<double>(whole_) + static_cast<double>(rest_) * part_) / static_cast<double>(pitch);
+    [[nodiscard]] double position(double pitch) const {
+        return (static_cast<double>(whole_) + static_cast<double>(rest_) * part_) / pitch;
     }
 
   private:
@@ -130,6 +130,7 @@ template <bool Right, bool Down, class Visit> Visit walk_way(const Grid& grid, G
     GridLines &across = way.across, &along = way.along;
     across.at.shift(grid.py * row), along.at.shift(grid.px * column);
     const std::int64_t border = Down ? grid.py : 0; // of the row, where the line leaves it
+    const auto width = static_cast<double>(grid.px), height = static_cast<double>(grid.py); // of a texel
     // At a corner of the grid (see above): to the right, the vertical line is first, but for the border.
     const auto horizontal_first = [&] {
         if (along.left == 0 || across.left == 0) return across.left == 0;
@@ -139,11 +140,11 @@ template <bool Right, bool Down, class Visit> Visit walk_way(const Grid& grid, G
     };
     while (along.left > 0 || (across.left > 0 && !way.leaves)) {
         if (horizontal_first()) {
-            visit(GridCrossing{false, along.next, column, along.at.position(grid.px), Down});
+            visit(GridCrossing{false, along.next, column, along.at.position(width), Down});
             row += kAlong, across.at.shift(kAlong * grid.py);
             along.next += kAlong, --along.left, along.at.advance();
         } else {
-            visit(GridCrossing{true, across.next, row, across.at.position(grid.py), Right});
+            visit(GridCrossing{true, across.next, row, across.at.position(height), Right});
             column += kAcross, along.at.shift(kAcross * grid.px);
             across.next += kAcross, --across.left, across.at.advance();
         }
