@@ -436,19 +436,17 @@ Status check_representations(const CompileCommandOptions& options) {
 Status check_inputs(const CompileCommandOptions& options) {
     if (const Status status = check_representations(options); !status) return status.error();
     const ImageOptions& image = options.image;
-    if ((makes(options, "bilevel") || makes(options, "curves")) && options.size.automatic)
-        return usage("--size auto chooses sizes for --repr fbt, silmap and pinchmap");
+    if (makes(options, "bilevel") && options.size.automatic)
+        return usage("--size auto chooses sizes for --repr fbt, silmap, pinchmap and curves");
     if (options.samples == "rgb8" && makes(options, "fbt"))
         return usage("--samples rgb8 is for --repr silmap, pinchmap and curves alone");
     if (makes(options, "curves") && !image.image.empty())
         return usage("--repr curves takes drawings and networks; its image is --base");
-    if (options.curves.kind == "height" && !options.curves.base.empty() && !(options.curves.base_height > 0))
-        return usage("--base of heights needs --base-height");
-    if (options.curves.kind == "color" && options.curves.base_height > 0)
-        return usage("--base-height is for --kind normal and height");
-    if (options.curves.base == "-") return usage("--base takes a file, not stdin");
+    if (const Status status = check_curves_base(options.curves); !status) return status.error();
     if (options.silmap.max_wrong_ppm > 0 && !size_chosen(options))
         return usage("--max-wrong goes with --size auto or --max-bytes");
+    if (options.curves.max_move > 0 && !size_chosen(options))
+        return usage("--max-move goes with --size auto or --max-bytes");
     if (options.bilevel.above_image == "-") return usage("--above-image takes a file, not stdin");
     if (image.image.empty())
         return options.inputs.empty() ? usage("inputs is required: SVG files or networks, or --image") : Status();
@@ -527,7 +525,7 @@ Command add_compile_command(CLI::App& parent) {
     CLI::Option* size = add_size_or_auto_option(
         *app, options->size,
         "Texels: both sides, or the longer one (default 128); auto: of an FBT as few as cheap lookups need, of a "
-        "silhouette-map texture or a pinchmap as few as --max-wrong lets");
+        "silhouette-map texture or a pinchmap as few as --max-wrong lets, with feature curves as --max-move does");
     app->add_option("--max-bytes", options->max_bytes,
                     "The largest size, to 1/64, with at most so many bytes on the GPU; of each representation")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))

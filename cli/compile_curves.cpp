@@ -8,6 +8,7 @@
 #include "cli/compile_image.h"
 #include "cli/compile_silmap.h"
 #include "cli/io.h"
+#include "compiler/diagnostics.h"
 #include "compiler/network/network_reader.h"
 #include "compiler/network/profile_reader.h"
 #include "compiler/scene/lattice.h"
@@ -21,11 +22,6 @@ constexpr std::uint32_t kMostIterations = 10000;
 constexpr double kMostTexels = 65504;           // of the distance limit: the format's
 constexpr std::uint32_t kFeatureTexels = 16384; // drawings' raster layers have no curves; any size does
 
-fetex::FeatureKind kind_of(const std::string& name) {
-    if (name == "color") return fetex::FeatureKind::Color;
-    return name == "height" ? fetex::FeatureKind::Height : fetex::FeatureKind::Normal;
-}
-
 fetex::FeatureNumberFormat numbers_of(const std::string& name) {
     if (name == "float") return fetex::FeatureNumberFormat::Float;
     return name == "half" ? fetex::FeatureNumberFormat::Half : fetex::FeatureNumberFormat::Bits16;
@@ -33,7 +29,49 @@ fetex::FeatureNumberFormat numbers_of(const std::string& name) {
 
 bool is_preset(const std::string& name) { return std::ranges::count(kProfilePresets, name) > 0; }
 
-/// One of the network's, a preset, or a file's, whose name `file` becomes.
+BaseImageKind base_kind(const CurvesCommandOptions& how) {
+    if (how.kind == "height" || how.base_height > 0) return BaseImageKind::Height;
+    return how.kind == "normal" ? BaseImageKind::Normal : BaseImageKind::Color;
+}
+
+FeatureCurvesOptions builder_options(const CurvesRequest& request) {
+    FeatureCurvesOptions options;
+    options.numbers = numbers_of(request.how.numbers), options.linear = request.how.linear;
+    options.kind = curves_kind(request.how.kind), options.sample_format = silmap_sample_format(request.samples);
+    options.mips = request.mips;
+    options.limit = request.how.limit, options.smooth = request.how.smooth, options.threads = request.threads;
+    options.base_color = straight_color(request.how.base_color);
+    options.base = base_image(request.how, nullptr);
+    return options;
+}
+
+} // namespace
+
+fetex::FeatureKind curves_kind(const std::string& name) {
+    if (name == "color") return fetex::FeatureKind::Color;
+    return name == "height" ? fetex::FeatureKind::Height : fetex::FeatureKind::Normal;
+}
+
+BaseImage base_image(const CurvesCommandOptions& how, const RasterImage* image) {
+    BaseImage base{image, base_kind(how), how.normal_y == "up"};
+    if (how.base_height > 0) base.height_scale = how.base_height;
+    return base;
+}
+
+Rgba straight_color(const std::string& text) {
+    const auto color = *parse_color(text);
+    return {color[0], color[1], color[2], color[3]};
+}
+
+Status check_curves_base(const CurvesCommandOptions& how) {
+    const auto usage = [](const char* message) { return Error{ErrorClass::Usage, diag::kBadUsage, message, {}}; };
+    if (how.kind == "height" && !how.base.empty() && !(how.base_height > 0))
+        return usage("--base of heights needs --base-height");
+    if (how.kind == "color" && how.base_height > 0) return usage("--base-height is for --kind normal and height");
+    if (how.base == "-") return usage("--base takes a file, not stdin");
+    return {};
+}
+
 Result<std::optional<FeatureProfile>> wanted_profile(const Network& network, const CurvesCommandOptions& how,
                                                      std::string& file) {
     if (how.profile.empty()) return std::optional<FeatureProfile>();
@@ -53,43 +91,17 @@ Result<std::optional<FeatureProfile>> wanted_profile(const Network& network, con
     return std::optional(std::move(profile).value());
 }
 
-struct LoadedBase {
-    RasterImage image;
-    std::string hash;
-};
-
-BaseImageKind base_kind(const CurvesCommandOptions& how) {
-    if (how.base_height > 0) return BaseImageKind::Height;
-    return how.kind == "normal" ? BaseImageKind::Normal : BaseImageKind::Color;
-}
-
-Result<LoadedBase> load_base(const CurvesRequest& request, std::vector<Diagnostic>& diagnostics) {
+Result<LoadedBase> load_base(const CurvesCommandOptions& how, bool bright, std::vector<Diagnostic>& diagnostics) {
     LoadedBase base;
-    const auto bytes = read_input(request.how.base, kMaxImageBytes);
+    const auto bytes = read_input(how.base, kMaxImageBytes);
     if (!bytes) return bytes.error();
     base.hash = hash_of(bytes.value());
-    const ImageValues values{.bright = request.samples == "float" && request.how.kind == "color",
-                             .data = base_kind(request.how) != BaseImageKind::Color};
-    auto image = read_image(request.how.base, values, diagnostics);
+    const ImageValues values{.bright = bright, .data = base_kind(how) != BaseImageKind::Color};
+    auto image = read_image(how.base, values, diagnostics);
     if (!image) return image.error();
     base.image = std::move(image).value();
     return base;
 }
-
-FeatureCurvesOptions builder_options(const CurvesRequest& request) {
-    FeatureCurvesOptions options;
-    options.numbers = numbers_of(request.how.numbers), options.linear = request.how.linear;
-    options.kind = kind_of(request.how.kind), options.sample_format = silmap_sample_format(request.samples);
-    options.mips = request.mips;
-    options.limit = request.how.limit, options.smooth = request.how.smooth, options.threads = request.threads;
-    const auto color = *parse_color(request.how.base_color);
-    options.base_color = {color[0], color[1], color[2], color[3]};
-    options.base.kind = base_kind(request.how), options.base.y_up = request.how.normal_y == "up";
-    if (request.how.base_height > 0) options.base.height_scale = request.how.base_height;
-    return options;
-}
-
-} // namespace
 
 bool is_network(std::span<const std::uint8_t> bytes) {
     const auto first =
@@ -117,7 +129,8 @@ Result<CompiledCurves> compile_curves(const Network& network, const CurvesReques
     options.profile = std::move(profile).value();
     LoadedBase base;
     if (!request.how.base.empty()) {
-        auto loaded = load_base(request, diagnostics);
+        const bool bright = request.samples == "float" && request.how.kind == "color";
+        auto loaded = load_base(request.how, bright, diagnostics);
         if (!loaded) return loaded.error();
         base = std::move(loaded).value(), options.base.image = &base.image;
     }
@@ -125,8 +138,12 @@ Result<CompiledCurves> compile_curves(const Network& network, const CurvesReques
     if (!extent) return extent.error();
     const SizeValue& size = request.size;
     options.size = size.longer != 0 ? grid_for(extent.value(), size.longer) : GridSize{size.width, size.height};
-    auto build = request.max_bytes == 0 ? compile_feature_curves(network, options, progress)
-                                        : compile_feature_curves_within(network, options, request.max_bytes, progress);
+    auto build = size.automatic || request.how.max_move > 0
+                     ? compile_feature_curves_at_chosen_size(network, options,
+                                                             {request.how.max_move, request.max_bytes}, progress)
+                 : request.max_bytes == 0
+                     ? compile_feature_curves(network, options, progress)
+                     : compile_feature_curves_within(network, options, request.max_bytes, progress);
     if (!build) return build.error();
     const std::vector<Diagnostic>& said = build.value().diagnostics;
     diagnostics.insert(diagnostics.end(), said.begin(), said.end());
@@ -147,6 +164,7 @@ std::string options_text(const CurvesRequest& request, const FeatureCurvesBuild&
     }
     if (!names.empty()) text += " profile=" + names;
     text += " profile-width=" + widths;
+    if (how.max_move > 0) text += fmt::format(" max-move={:g}", how.max_move);
     if (how.base_height > 0) text += fmt::format(" base-height={:g}", how.base_height);
     if (how.kind == "color" && how.base.empty()) text += " base-color=" + how.base_color;
     return text;
@@ -176,7 +194,7 @@ const char* numbers_name(fetex::FeatureNumberFormat format) {
     return "";
 }
 
-std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions& options) {
+std::vector<CLI::Option*> add_shown_options(CLI::App& app, CurvesCommandOptions& options) {
     std::vector<CLI::Option*> all;
     const auto add = [&](CLI::Option* option) {
         all.push_back(option);
@@ -191,21 +209,6 @@ std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions
                        "Of a texture with feature curves: what it shows, normals (default), colours or heights"))
         ->check(CLI::IsMember({"normal", "color", "height"}))
         ->type_name("NAME");
-    add(app.add_option("--numbers", options.numbers,
-                       "Of a texture with feature curves: its numbers, integers of 16 bits (default), half or float"))
-        ->check(CLI::IsMember({"16", "half", "float"}))
-        ->type_name("FORMAT");
-    add(app.add_flag("--linear", options.linear,
-                     "A texture with feature curves that are straight in each texel: smaller and faster"));
-    add(app.add_option("--limit", options.limit,
-                       "Of a texture with feature curves: texels up to which distances are known; default: as far as "
-                       "the profile needs"))
-        ->check(number_range(0x1p-10, kMostTexels))
-        ->type_name("TEXELS");
-    add(app.add_option("--smooth", options.smooth,
-                       "Of a texture with feature curves: how often its gradients are smoothed (default 10)"))
-        ->check(CLI::Range(0U, kMostIterations))
-        ->type_name("N");
     CLI::Option* profile = add(
         app.add_option("--profile", options.profile,
                        "What is done near all feature curves: crease, groove, ridge, seam, one of the network's "
@@ -239,6 +242,35 @@ std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions
         ->check(CLI::IsMember({"up", "down"}))
         ->needs(base)
         ->type_name("WAY");
+    return all;
+}
+
+std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions& options) {
+    std::vector<CLI::Option*> all = add_shown_options(app, options);
+    const auto add = [&](CLI::Option* option) {
+        all.push_back(option);
+        return option;
+    };
+    add(app.add_option("--numbers", options.numbers,
+                       "Of a texture with feature curves: its numbers, integers of 16 bits (default), half or float"))
+        ->check(CLI::IsMember({"16", "half", "float"}))
+        ->type_name("FORMAT");
+    add(app.add_flag("--linear", options.linear,
+                     "A texture with feature curves that are straight in each texel: smaller and faster"));
+    add(app.add_option("--limit", options.limit,
+                       "Of a texture with feature curves: texels up to which distances are known; default: as far as "
+                       "the profile needs"))
+        ->check(number_range(0x1p-10, kMostTexels))
+        ->type_name("TEXELS");
+    add(app.add_option("--smooth", options.smooth,
+                       "Of a texture with feature curves: how often its gradients are smoothed (default 10)"))
+        ->check(CLI::Range(0U, kMostIterations))
+        ->type_name("N");
+    add(app.add_option("--max-move", options.max_move,
+                       "Of a texture with feature curves, with --size auto or --max-bytes: the smallest in which no "
+                       "curve is farther from where it belongs, in the drawing's units"))
+        ->check(number_range(1e-9, 1e12))
+        ->type_name("UNITS");
     return all;
 }
 

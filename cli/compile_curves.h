@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,10 +22,11 @@ struct CurvesCommandOptions {
     bool linear = false;
     double limit = 0; ///< texels; 0: by the profile
     std::uint32_t smooth = kGradientIterations;
+    double max_move = 0;      ///< user units, of sizes that are chosen; 0: none
     std::string profile;      ///< empty: as the network says; else a preset's name, or a file
     double profile_width = 0; ///< user units, of a preset; 0: kPresetWidth
     std::string base, base_color = "#ffffff", normal_y = "up";
-    double base_height = 0; ///< user units; 0: the base isn't heights
+    double base_height = 0; ///< user units, of a base of heights; 0: it isn't one
 };
 
 /// What is to be made of a network.
@@ -45,13 +47,36 @@ bool is_network(std::span<const std::uint8_t> bytes);
 Result<Network> network_of_bytes(const std::vector<std::uint8_t>& bytes, const std::string& curves,
                                  const SceneOptions& scene, unsigned threads, std::vector<Diagnostic>& diagnostics);
 
+/// One of the network's, a preset, or a file's, whose name `file` becomes; none: as the network says. Errors: those of
+/// read_input and read_profile.
+Result<std::optional<FeatureProfile>> wanted_profile(const Network& network, const CurvesCommandOptions& how,
+                                                     std::string& file);
+
+struct LoadedBase {
+    RasterImage image;
+    std::string hash; ///< as LoadedScene's
+};
+/// Precondition: there is a base, and check_curves_base agrees. bright: colours above 1 stay. Errors: those of
+/// read_input and read_image.
+Result<LoadedBase> load_base(const CurvesCommandOptions& how, bool bright, std::vector<Diagnostic>& diagnostics);
+
+/// Usage errors of --kind, --base and --base-height together.
+Status check_curves_base(const CurvesCommandOptions& how);
+
+fetex::FeatureKind curves_kind(const std::string& name);
+/// image: null: none; it must outlive what is made of it.
+BaseImage base_image(const CurvesCommandOptions& how, const RasterImage* image);
+/// Of --base-color.
+Rgba straight_color(const std::string& text);
+
 struct CompiledCurves {
     FeatureCurvesBuild build;
     std::string base_hash;    ///< of the base image; empty: none
     std::string profile_file; ///< that the profile was read from; empty: none
 };
 
-/// Errors: those of compile_feature_curves, compile_feature_curves_within, read_profile and read_image.
+/// Errors: those of compile_feature_curves, compile_feature_curves_within,
+/// compile_feature_curves_at_chosen_size, read_profile and read_image.
 Result<CompiledCurves> compile_curves(const Network& network, const CurvesRequest& request,
                                       const ProgressSink& progress, std::vector<Diagnostic>& diagnostics);
 
@@ -61,8 +86,10 @@ std::string options_text(const CurvesRequest& request, const FeatureCurvesBuild&
 const char* kind_name(fetex::FeatureKind kind);
 const char* numbers_name(fetex::FeatureNumberFormat format);
 
-/// --curves, --kind, --numbers, --linear, --limit, --smooth, --profile, --profile-width, --base, --base-color,
-/// --base-height, --normal-y.
+/// What is shown of curves: --curves, --kind, --profile, --profile-width, --base, --base-color, --base-height,
+/// --normal-y.
+std::vector<CLI::Option*> add_shown_options(CLI::App& app, CurvesCommandOptions& options);
+/// These, and how it is stored: --numbers, --linear, --limit, --smooth, --max-move.
 std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions& options);
 
 } // namespace fetexc::cli

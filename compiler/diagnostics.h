@@ -101,6 +101,7 @@ inline constexpr int kSilmapErrorUnmet = 5022; ///< no size of a silhouette-map 
 inline constexpr int kPinchmapBudget = 5031;     ///< no size of a pinchmap fits in --max-bytes
 inline constexpr int kPinchmapErrorUnmet = 5032; ///< no size of a pinchmap has as little wrong area as asked for
 inline constexpr int kFeatureBudget = 5041;      ///< no size of a texture with feature curves fits in --max-bytes
+inline constexpr int kFeatureErrorUnmet = 5042;  ///< no size of a texture with feature curves has them as near to where they belong as asked for
 inline constexpr int kBilevelPartsLost = 5101;  ///< parts of a silhouette that its texture doesn't show: thinner than its texels (count)
 inline constexpr int kBilevelPartsFalse = 5102; ///< parts that a bi-level texture shows and the silhouette hasn't (count)
 inline constexpr int kBilevelColorsVary = 5103; ///< edges of a silhouette whose colours vary: what they bound is above or below as a whole, by the mean along its edges (count)
@@ -116,6 +117,7 @@ inline constexpr int kFeatureEndsCut = 5142; ///< ends of feature curves inside 
 inline constexpr int kFeatureLost = 5143;    ///< feature curves that lie inside one texel, or fold back in it, and don't show (count)
 inline constexpr int kFeatureStraightened = 5144; ///< segments of feature curves that are straight, and bend where they end, as no valid quadratic was found (count)
 inline constexpr int kFeatureProfiles = 5148; ///< curves that have another profile than they ask for: where they cross an edge of a texel with others, or beyond the 16 of a texture (count)
+inline constexpr int kFeatureOtherTruth = 5149; ///< `compare`: a texture with feature curves was made with another base map or profile than its truth has
 
 // Command line and files (owner: cli)
 inline constexpr int kCannotOpen = 8001;          ///< an input can't be opened

@@ -308,6 +308,12 @@ inline constexpr double kCrossedSlack = 0x1p-20;
 /// off by.
 inline constexpr double kBorderInset = 0x1p-30;
 
+/// Texels and a cosine: a point is away from medial axes, ends and corners of feature curves if its texel's corners are
+/// as far from the curves, to the first, as from the tangent at the nearest point, and in its direction, to the second
+/// (a curve of a radius of five texels bends away by a tenth within one): there distances are as good as linear, which
+/// is what a texture can hold of them.
+inline constexpr double kFeaturePlain = 0.1, kFeatureSameWay = 0.9;
+
 /// Share of a texel, of a bitmap of up to 2^14 texels a side: what eight edges' roundings leave of a result that they
 /// cover and uncover. Forgetting it moves a colour by 2^-22 of a step of eight bits.
 inline constexpr double kShareNoise = 8 * 0x1p14 * kEvaluationError;
@@ -409,6 +415,11 @@ inline constexpr double kSilmapLend = 0.125, kSilmapLent = 1.0 / 64, kSilmapLend
 /// Part of the canvas on the wrong side of an edge that sizes of their own choice may have, where none is asked for:
 /// one pixel in a thousand.
 inline constexpr double kSilmapChosenError = 1e-3, kPinchmapChosenError = 1e-3;
+
+/// Part of the width of what is done near feature curves: so far they may be from where they belong in textures whose
+/// size is chosen, where no distance is asked for. Moved by a quarter, a profile still covers three quarters of where
+/// it belongs on either side.
+inline constexpr double kFeatureChosenMove = 0.25;
 
 /// Clusters of a pinchmap: a corner farther than this on the wrong side counts no more, for gamma moves a discontinuity
 /// by less than a cluster, and it lies half of one from its clusters' middles.

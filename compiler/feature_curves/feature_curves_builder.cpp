@@ -209,4 +209,17 @@ Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network,
     return compile_feature_curves(network, chosen, progress);
 }
 
+Result<double> feature_curves_move(const Network& network, const FeatureCurvesOptions& options) {
+    const auto curves = snapped(network, options);
+    if (!curves) return curves.error();
+    double farthest = 0;
+    for (const FeatureMove& m : curves.value().moves)
+        farthest = std::max({farthest, m.distance, (m.kinds & kLostInside) != 0 ? std::numbers::sqrt2 : 0});
+    return farthest / texels_per_unit(network, options.size);
+}
+
+std::uint64_t feature_curves_bytes(const Network& network, const FeatureCurvesOptions& options) {
+    return bytes_at(options.size, options, makes_linear(network, options));
+}
+
 } // namespace fetexc

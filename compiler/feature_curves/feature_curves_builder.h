@@ -64,6 +64,28 @@ Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const 
 Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network, const FeatureCurvesOptions& options,
                                                          std::uint64_t max_bytes, const ProgressSink& progress = {});
 
+/// Of a texture whose size is chosen by what curves may move.
+struct FeatureLimits {
+    double max_move = 0;         ///< user units: how far curves may be from where they belong; 0: none is asked for
+    std::uint64_t max_bytes = 0; ///< on the GPU; 0: any
+};
+
+/// The smallest size, by the longer side, in which no curve moves farther (SnappedCurves::moves, so ends that are cut
+/// count), to 1/16 and up to 4096 texels; options.size is ignored. With a base map at least its pixels. Nothing asked
+/// for: a quarter of the narrowest profile's width (budget::kFeatureChosenMove), or the best of up to 1024 texels.
+/// Errors kFeatureBudget; kFeatureErrorUnmet: none is as good.
+Result<FeatureCurvesBuild> compile_feature_curves_at_chosen_size(const Network& network,
+                                                                 const FeatureCurvesOptions& options,
+                                                                 FeatureLimits limits,
+                                                                 const ProgressSink& progress = {});
+
+/// How far curves are from where they belong at options.size, user units; what lies inside a texel and is lost, by a
+/// texel's diagonal. Errors: those of lattice_lines and lattice_curves.
+Result<double> feature_curves_move(const Network& network, const FeatureCurvesOptions& options);
+
+/// On the GPU, at options.size.
+std::uint64_t feature_curves_bytes(const Network& network, const FeatureCurvesOptions& options);
+
 /// Texels that a user unit has: the mean of both sides'.
 double texels_per_unit(const Network& network, GridSize size);
 

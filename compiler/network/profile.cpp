@@ -70,6 +70,15 @@ double profile_height(const FeatureProfile& p, double distance) {
     return p.height * preset_shape(p.shape, distance / p.width).value;
 }
 
+/// A monotone cubic has no extremes between its points.
+double largest_height(const FeatureProfile& p) {
+    if (p.shape != ProfileShape::Table) return std::abs(p.height);
+    double most = 0;
+    for (const ProfilePoint& at : p.heights)
+        most = std::max(most, std::abs(at.value));
+    return most;
+}
+
 double profile_slope(const FeatureProfile& p, double distance) {
     if (p.shape == ProfileShape::Table) return table_shape(p.heights, distance).slope;
     return p.height / p.width * preset_shape(p.shape, distance / p.width).slope;

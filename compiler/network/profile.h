@@ -45,6 +45,8 @@ struct FeatureProfile {
 
 /// Precondition of all: distance ≥ 0.
 double profile_height(const FeatureProfile& p, double distance);
+/// The largest |h| at any distance.
+double largest_height(const FeatureProfile& p);
 /// dh/dd.
 double profile_slope(const FeatureProfile& p, double distance);
 /// 0: profile alone; 1, from width on: base map alone.

@@ -2,10 +2,12 @@
 /// Profiles (Parilov and Zorin 2008, §3.1): presets, tables, and what their JSON may say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "compiler/diagnostics.h"
+#include "compiler/network/curve_profiles.h"
 #include "compiler/network/network_reader.h"
 #include "compiler/network/profile_reader.h"
 
@@ -46,6 +48,34 @@ TEST(Profile, slopesAreDerivativesOfHeights) {
             EXPECT_NEAR(profile_slope(p, d), quotient, kQuotientError) << p.name << ' ' << d;
         }
     }
+}
+
+TEST(Profile, knowTheirLargestHeight) {
+    for (const FeatureProfile& p : some_profiles()) {
+        double most = 0;
+        for (double d = 0; d < 1.1 * p.width; d += p.width / 3000) // thirds: a seam's top
+            most = std::max(most, std::abs(profile_height(p, d)));
+        EXPECT_NEAR(largest_height(p), most, 1e-6 * most) << p.name;
+    }
+}
+
+TEST(Profile, ofCurvesAreTheirOwnOrTheCommonest) {
+    const NetworkCurve one{"", {{1, {CanvasPoint{0, 0}, {1, 1}}}}, false, "", {}, {}};
+    NetworkCurve ridge = one, own = one;
+    ridge.profile = "ridge", own.profile = "own";
+    FeatureProfile p = *preset_profile("groove", 5);
+    p.name = "own";
+    const Network network{9, 9, {one, own, ridge, ridge}, {p}};
+    const CurveProfiles found = curve_profiles(network, std::nullopt);
+    ASSERT_EQ(found.profiles.size(), 2u);
+    EXPECT_EQ(found.profiles[0].name, "ridge");
+    EXPECT_EQ(found.profiles[1].width, 5);
+    EXPECT_EQ(found.of_curve, (std::vector<std::uint32_t>{0, 1, 0, 0}));
+    EXPECT_EQ(profile_reach(found), 5);
+    const CurveProfiles all = curve_profiles(network, p);
+    EXPECT_EQ(all.profiles.size(), 1u);
+    EXPECT_EQ(all.of_curve, (std::vector<std::uint32_t>(4, 0)));
+    EXPECT_EQ(curve_profiles({9, 9, {}}, std::nullopt).profiles.front().name, "crease");
 }
 
 TEST(Profile, blendsGoFromTheProfileToTheBaseMap) {
