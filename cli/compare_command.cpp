@@ -7,11 +7,11 @@
 
 #include "cli/compare_input.h"
 #include "cli/compare_outcome.h"
+#include "cli/compare_truth.h"
 #include "cli/difference_picture.h"
 #include "cli/fetex_input.h"
 #include "cli/image_file.h"
 #include "cli/io.h"
-#include "cli/load_scene.h"
 #include "cli/messages.h"
 #include "cli/options.h"
 #include "compiler/diagnostics.h"
@@ -30,54 +30,13 @@ struct CompareOptions {
     std::vector<std::uint32_t> sizes;   ///< pixels on the longer side
     std::vector<double> magnifications; ///< pixels a texel of the other
     double reach = measure::MeasureOptions{}.reach;
-    SceneOptions scene;
+    TruthOptions how; ///< of TRUTH
     Thresholds thresholds;
-    unsigned threads = 0;
-    bool nearest = false, json = false, quiet = false;
-};
-
-/// What OTHER is held against: a scene or a picture.
-struct TruthFile {
-    std::unique_ptr<const LoadedScene> loaded; ///< what `scene` points into
-    std::unique_ptr<const measure::Truth> scene;
-    ComparedPicture picture;
-    std::string description;
+    bool json = false;
 };
 
 Error usage(std::string message, std::string place = {}) {
     return {ErrorClass::Usage, diag::kBadUsage, std::move(message), std::move(place)};
-}
-
-/// "sign.svg: path#wheel", where the error says which element.
-Error at(const std::string& path, const Error& e) {
-    return {e.cls, e.code, e.message, e.place.empty() ? path : fmt::format("{}: {}", path, e.place)};
-}
-
-Result<TruthFile> load_scene_truth(const ComparedFile& file, const CompareOptions& options, GridSize texels) {
-    std::vector<Diagnostic> diagnostics;
-    auto loaded =
-        scene_of_bytes(file.bytes, options.scene, std::max(texels.width, texels.height), options.threads, diagnostics);
-    print_diagnostics(diagnostics, file.path, options.quiet);
-    if (!loaded) return at(file.path, loaded.error());
-    TruthFile out;
-    out.loaded = std::make_unique<const LoadedScene>(std::move(loaded).value());
-    auto truth = measure::Truth::of(out.loaded->scene, options.threads);
-    if (!truth) return at(file.path, truth.error());
-    out.scene = std::move(truth).value();
-    out.description = fmt::format("drawing of {:.6g} x {:.6g} units, {} visible edges", out.loaded->scene.extent.width,
-                                  out.loaded->scene.extent.height, out.scene->edges().size());
-    return out;
-}
-
-Result<TruthFile> load_truth(const ComparedFile& file, const CompareOptions& options, GridSize texels) {
-    if (file.kind == FileKind::Svg) return load_scene_truth(file, options, texels);
-    auto picture = picture_of(file, options.nearest ? measure::BitmapPicture::Filter::Nearest
-                                                    : measure::BitmapPicture::Filter::Bilinear);
-    if (!picture) return picture.error();
-    TruthFile out;
-    out.picture = std::move(picture).value();
-    out.description = out.picture.description;
-    return out;
 }
 
 /// The sizes asked for, then the magnifications.
@@ -98,31 +57,65 @@ Result<std::vector<GridSize>> output_sizes(const CompareOptions& options, double
     return sizes;
 }
 
+/// The texture among OTHER's that the comparison is of, if it is one with feature curves.
+const fetex::FeatureCurvesTexture* curves_texture(const ComparedPicture& other) {
+    return other.asset && other.asset->feature_curves ? &*other.asset->feature_curves : nullptr;
+}
+
+void measure_curves(const measure::CurveTruth& truth, const ComparedPicture& other, const std::vector<GridSize>& sizes,
+                    const CompareOptions& options, CompareOutcome& outcome) {
+    measure::CurveMeasureOptions how;
+    how.reach = options.reach, how.threads = options.how.threads, how.seen = seen_colors(options.how);
+    for (const GridSize size : sizes)
+        outcome.curve_errors.push_back(measure::curve_errors(truth, *other.picture, curves_texture(other), size, how));
+    outcome.texel_side = measure::texel_side(truth, *other.picture), outcome.height = truth.height();
+}
+
 /// Fills in the figures.
-Status measure_all(const TruthFile& truth, const measure::Picture& other, const std::vector<GridSize>& sizes,
+Status measure_all(const TruthFile& truth, const ComparedPicture& other, const std::vector<GridSize>& sizes,
                    const CompareOptions& options, CompareOutcome& outcome) {
+    const unsigned threads = options.how.threads;
+    if (truth.curves) {
+        measure_curves(*truth.curves, other, sizes, options, outcome);
+        return {};
+    }
     if (!truth.scene) {
         for (const GridSize size : sizes)
-            outcome.differences.push_back(measure::difference(*truth.picture.picture, other, size, options.threads));
+            outcome.differences.push_back(measure::difference(*truth.picture.picture, *other.picture, size, threads));
         return {};
     }
     measure::MeasureOptions how;
-    how.sizes = sizes, how.reach = options.reach, how.threads = options.threads;
-    auto errors = measure::measure(*truth.scene, other, how);
+    how.sizes = sizes, how.reach = options.reach, how.threads = threads;
+    auto errors = measure::measure(*truth.scene, *other.picture, how);
     if (!errors) return errors.error();
     outcome.errors = std::move(errors).value();
-    outcome.texel_side = measure::texel_side(*truth.scene, other);
+    outcome.texel_side = measure::texel_side(*truth.scene, *other.picture);
     outcome.height = truth.scene->height();
     return {};
 }
 
+/// As it is compared.
+std::vector<Rgba> seen_means(const TruthFile& truth, const measure::Picture& picture, GridSize pixels,
+                             const CompareOptions& options) {
+    const auto seen = seen_colors(options.how);
+    const auto how = truth.curves ? measure::PixelMeans::Smooth : measure::PixelMeans::Jumps;
+    const unsigned threads = options.how.threads;
+    return seen ? measure::box_means(measure::SeenPicture(picture, seen), pixels, threads, how)
+                : measure::box_means(picture, pixels, threads, how);
+}
+
+Result<std::vector<Rgba>> truth_means(const TruthFile& truth, GridSize pixels, const CompareOptions& options) {
+    if (truth.scene) return truth.scene->picture(pixels, options.how.threads);
+    const measure::Picture* picture = truth.curves.get();
+    return seen_means(truth, picture != nullptr ? *picture : *truth.picture.picture, pixels, options);
+}
+
 Status write_difference(const TruthFile& truth, const measure::Picture& other, GridSize pixels,
                         const CompareOptions& options) {
-    auto expected = truth.scene ? truth.scene->picture(pixels, options.threads)
-                                : measure::box_means(*truth.picture.picture, pixels, options.threads);
+    const auto expected = truth_means(truth, pixels, options);
     if (!expected) return expected.error();
-    const std::vector<Rgba> found = measure::box_means(other, pixels, options.threads);
-    const auto png = encode_png(difference_picture(expected.value(), found, pixels));
+    const auto png =
+        encode_png(difference_picture(expected.value(), seen_means(truth, other, pixels, options), pixels));
     if (!png) return at(options.diff, png.error());
     return write_output(options.diff, png.value());
 }
@@ -132,7 +125,7 @@ Status check_options(const CompareOptions& options) {
     if (options.thresholds.distance && *options.thresholds.distance > options.reach)
         return usage(
             fmt::format("--max-distance {:g} is beyond --reach {:g}", *options.thresholds.distance, options.reach));
-    for (const std::string& input : {options.truth, options.other}) {
+    for (const std::string& input : {options.truth, options.other, options.how.curves.base}) {
         if (same_file(input, options.diff))
             return Error{ErrorClass::Usage, diag::kWouldOverwriteInput, "the output would overwrite an input",
                          options.diff};
@@ -148,11 +141,25 @@ Status check_difference_size(GridSize pixels, const CompareOptions& options) {
 }
 
 Status check_kinds(const ComparedFile& truth, const ComparedFile& other, const CompareOptions& options) {
-    if (other.kind == FileKind::Svg)
-        return usage("OTHER must be a .fetex or a PNG; a drawing can only be the truth", other.path);
+    if (other.kind == FileKind::Svg || other.kind == FileKind::Network)
+        return usage("OTHER must be a .fetex or a PNG; a drawing or a network can only be the truth", other.path);
     const Thresholds& t = options.thresholds;
-    if (truth.kind != FileKind::Svg && (t.misclassified || t.distance || t.islands))
+    if (truth.kind != FileKind::Svg && truth.kind != FileKind::Network && (t.misclassified || t.distance || t.islands))
         return usage("--max-misclassified, --max-distance and --max-islands need an SVG as TRUTH", truth.path);
+    if (!options.representation.empty() && other.kind != FileKind::Asset)
+        return usage("--repr is for a .fetex", options.other);
+    return {};
+}
+
+/// Thresholds of figures that there aren't.
+Status check_curve_thresholds(const ComparedPicture& other, const CompareOptions& options) {
+    const Thresholds& t = options.thresholds;
+    if (t.misclassified || t.islands)
+        return usage("--max-misclassified and --max-islands are for drawings, not for what is done near curves",
+                     options.truth);
+    if (t.distance && curves_texture(other) == nullptr)
+        return usage("--max-distance of a network's curves needs a texture with feature curves as OTHER",
+                     options.other);
     return {};
 }
 
@@ -163,20 +170,17 @@ Result<CompareOutcome> compare(const CompareOptions& options) {
     if (!other_file) return other_file.error();
     if (const Status status = check_kinds(truth_file.value(), other_file.value(), options); !status)
         return status.error();
-    if (!options.representation.empty() && other_file.value().kind != FileKind::Asset)
-        return usage("--repr is for a .fetex", options.other);
-    const auto other =
-        picture_of(other_file.value(),
-                   options.nearest ? measure::BitmapPicture::Filter::Nearest : measure::BitmapPicture::Filter::Bilinear,
-                   options.representation);
+    const auto filter =
+        options.how.nearest ? measure::BitmapPicture::Filter::Nearest : measure::BitmapPicture::Filter::Bilinear;
+    const auto other = picture_of(other_file.value(), filter, options.representation);
     if (!other) return other.error();
     const measure::Picture& picture = *other.value().picture;
-    const auto truth = load_truth(truth_file.value(), options, picture.texels());
+    if (is_curve_truth(truth_file.value(), other.value(), options.how)) {
+        if (const Status status = check_curve_thresholds(other.value(), options); !status) return status.error();
+    }
+    const auto truth = load_truth(truth_file.value(), other.value(), options.how);
     if (!truth) return truth.error();
-    const GridSize shape = truth.value().scene ? GridSize{} : truth.value().picture.picture->texels();
-    const double aspect =
-        truth.value().scene ? 1 / truth.value().scene->height() : static_cast<double>(shape.width) / shape.height;
-    const auto sizes = output_sizes(options, aspect, picture.texels());
+    const auto sizes = output_sizes(options, truth.value().aspect(), picture.texels());
     if (!sizes) return sizes.error();
     if (const Status status = check_difference_size(sizes.value().back(), options); !status) return status.error();
 
@@ -184,7 +188,7 @@ Result<CompareOutcome> compare(const CompareOptions& options) {
     outcome.truth = options.truth, outcome.other = options.other;
     outcome.truth_kind = truth.value().description, outcome.other_kind = other.value().description;
     outcome.texels = picture.texels(), outcome.gpu_bytes = picture.gpu_bytes();
-    if (const Status status = measure_all(truth.value(), picture, sizes.value(), options, outcome); !status)
+    if (const Status status = measure_all(truth.value(), other.value(), sizes.value(), options, outcome); !status)
         return at(options.truth, status.error());
     outcome.checks = check(outcome, options.thresholds);
     if (!options.diff.empty()) {
@@ -229,14 +233,16 @@ Command add_compare_command(CLI::App& parent) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App* app =
         parent.add_subcommand("compare", "Say how far a texture is from a drawing, or from another texture");
-    app->add_option("truth", options->truth, "What is right: an SVG, a .fetex or a PNG; - for stdin")
+    app->add_option("truth", options->truth,
+                    "What is right: an SVG, a network of curves, a .fetex or a PNG; - for stdin")
         ->required()
         ->type_name("TRUTH");
     app->add_option("other", options->other, "What is judged: a .fetex or a PNG; - for stdin")
         ->required()
         ->type_name("OTHER");
-    app->add_option("--repr", options->representation,
-                    "What of OTHER: fbt, bilevel or silmap; default: the first of these that it holds")
+    app->add_option(
+           "--repr", options->representation,
+           "What of OTHER: fbt, bilevel, silmap, pinchmap or curves; default: the first of these that it holds")
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME");
     app->add_option("--size", options->sizes, "Output sizes: pixels on the longer side (default 1024)")
@@ -247,7 +253,7 @@ Command add_compare_command(CLI::App& parent) {
         ->delimiter(',')
         ->check(number_range(1.0 / kMaxSide, kMaxSide))
         ->type_name("X,...");
-    app->add_flag("--nearest", options->nearest, "Look PNGs up without interpolation; default: bilinear");
+    app->add_flag("--nearest", options->how.nearest, "Look PNGs up without interpolation; default: bilinear");
     app->add_option("--reach", options->reach,
                     "Texels within which edges are looked for and colours may come from the other side (default 1.5)")
         ->check(number_range(0.1, kMaxReach))
@@ -257,12 +263,23 @@ Command add_compare_command(CLI::App& parent) {
                     "Write a PNG of the last size: the truth in grey, wrong pixels from yellow (2/255) to black")
         ->type_name("FILE");
     app->add_flag("--json", options->json, "Print JSON (cli/schema/compare.schema.json)");
-    app->add_option("-j,--jobs", options->threads, "Threads; 0 (default) is one per core. Never changes the figures")
+    app->add_option("-j,--jobs", options->how.threads,
+                    "Threads; 0 (default) is one per core. Never changes the figures")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
-    add_scene_options(*app, options->scene);
-    add_quiet_option(*app, options->quiet);
-    return {app, [options] { return run_compare(*options); }};
+    add_scene_options(*app, options->how.scene);
+    add_quiet_option(*app, options->how.quiet);
+    add_light_option(*app, options->how.light);
+    const std::vector<CLI::Option*> shown = add_shown_options(*app, options->how.curves);
+    return {app, [options, app, shown] {
+                options->how.curves_given = app->count("--curves") > 0,
+                options->how.kind_given = app->count("--kind") > 0;
+                for (const CLI::Option* o : shown) {
+                    if (o->count() > 0) options->how.curve_option = o->get_name();
+                }
+                if (options->how.light) options->how.curve_option = "--light";
+                return run_compare(*options);
+            }};
 }
 
 } // namespace fetexc::cli

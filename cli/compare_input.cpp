@@ -29,7 +29,8 @@ FileKind kind_of(const std::string& path, const std::vector<std::uint8_t>& bytes
         return FileKind::Asset;
     if (starts_with("\x89PNG")) return FileKind::Png;
     if (path.ends_with(".fetex")) return FileKind::Asset; // and damaged
-    return path.ends_with(".png") ? FileKind::Png : FileKind::Svg;
+    if (path.ends_with(".png")) return FileKind::Png;
+    return is_network(bytes) ? FileKind::Network : FileKind::Svg;
 }
 
 std::string name_of(const fetex::FbtTexture&) { return "FBT"; }
@@ -81,6 +82,10 @@ Result<ComparedFile> read_compared(const std::string& path) {
 Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter,
                                    const std::string& representation) {
     return file.kind == FileKind::Asset ? asset_picture(file, representation) : bitmap_picture(file, filter);
+}
+
+Error at(const std::string& path, const Error& e) {
+    return {e.cls, e.code, e.message, e.place.empty() ? path : fmt::format("{}: {}", path, e.place)};
 }
 
 } // namespace fetexc::cli

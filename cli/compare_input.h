@@ -13,7 +13,7 @@
 
 namespace fetexc::cli {
 
-enum class FileKind : std::uint8_t { Svg, Asset, Png };
+enum class FileKind : std::uint8_t { Svg, Network, Asset, Png };
 
 struct ComparedFile {
     std::string path;
@@ -21,8 +21,8 @@ struct ComparedFile {
     std::vector<std::uint8_t> bytes;
 };
 
-/// path "-": stdin. What is neither a .fetex nor a PNG by its first bytes, nor called so, is taken for an SVG. Errors:
-/// those of read_input.
+/// path "-": stdin. What is neither a .fetex nor a PNG by its first bytes, nor called so, is a network if it begins
+/// with a brace, else taken for an SVG. Errors: those of read_input.
 Result<ComparedFile> read_compared(const std::string& path);
 
 /// An asset or a bitmap, ready to be asked for colours.
@@ -32,8 +32,12 @@ struct ComparedPicture {
     std::string description; ///< "FBT of 64 x 48 texels, 12345 bytes on the GPU"
 };
 
-/// Not for an SVG. representation: of an asset, as choose_representation takes it. Errors E6001, E6002, E8032.
+/// Not for an SVG or a network. representation: of an asset, as choose_representation takes it. Errors E6001, E6002,
+/// E8032.
 Result<ComparedPicture> picture_of(const ComparedFile& file, measure::BitmapPicture::Filter filter,
                                    const std::string& representation = {});
+
+/// "sign.svg: path#wheel", where the error says which element.
+Error at(const std::string& path, const Error& e);
 
 } // namespace fetexc::cli

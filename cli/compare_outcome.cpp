@@ -14,6 +14,15 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+using Errors = measure::SizeErrors;
+using Curves = measure::CurveErrors;
+using Difference = measure::PictureDifference;
+
+/// The same figure of each kind of entry.
+template <class... Of> struct Figure : Of... { using Of::operator()...; };
+/// Not one of such entries: options that ask for it are refused before.
+template <class Entry> constexpr auto nothing = [](const Entry&) { return 0.0; };
+
 /// Texels; beyond the reach nothing is known but that.
 double hausdorff(const measure::Distances& d, double texel_side) {
     return d.beyond_reach > 0 ? kInfinite : d.hausdorff / texel_side;
@@ -35,38 +44,39 @@ void find_worst(ThresholdCheck& check, const std::vector<Entry>& entries, const 
 std::vector<ThresholdCheck> check(const CompareOutcome& outcome, const Thresholds& thresholds) {
     std::vector<ThresholdCheck> checks;
     const auto add = [&](const std::optional<double>& limit, const char* option, const char* what, const char* unit,
-                         const auto& worse, const auto& of_errors, const auto& of_difference) {
+                         const auto& worse, const auto& figure) {
         if (!limit) return;
         ThresholdCheck c{option, what, unit, *limit, 0, {}, true};
-        if (outcome.errors.empty())
-            find_worst(c, outcome.differences, of_difference, worse);
+        if (!outcome.errors.empty())
+            find_worst(c, outcome.errors, figure, worse);
+        else if (!outcome.curve_errors.empty())
+            find_worst(c, outcome.curve_errors, figure, worse);
         else
-            find_worst(c, outcome.errors, of_errors, worse);
+            find_worst(c, outcome.differences, figure, worse);
         checks.push_back(c);
     };
-    using Errors = measure::SizeErrors;
-    using Difference = measure::PictureDifference;
-    const auto nothing = [](const Difference&) { return 0.0; };
     const std::greater<> more;
-    add(
-        thresholds.misclassified, "--max-misclassified", "misclassified area", "ppm", more,
-        [](const Errors& e) { return e.misclassified_ppm; }, nothing);
-    add(
-        thresholds.distance, "--max-distance", "largest distance between edges", "texels", more,
-        [&](const Errors& e) {
-            return std::max(hausdorff(e.to_truth, outcome.texel_side), hausdorff(e.to_picture, outcome.texel_side));
-        },
-        nothing);
-    add(
-        thresholds.psnr, "--min-psnr", "PSNR", "dB", std::less<>{}, [](const Errors& e) { return e.psnr; },
-        [](const Difference& d) { return d.psnr; });
+    add(thresholds.misclassified, "--max-misclassified", "misclassified area", "ppm", more,
+        Figure{[](const Errors& e) { return e.misclassified_ppm; }, nothing<Curves>, nothing<Difference>});
+    const auto farthest = [&](const measure::Distances& a, const measure::Distances& b) {
+        return std::max(hausdorff(a, outcome.texel_side), hausdorff(b, outcome.texel_side));
+    };
+    add(thresholds.distance, "--max-distance",
+        outcome.curve_errors.empty() ? "largest distance between edges" : "largest distance between curves", "texels",
+        more,
+        Figure{[&](const Errors& e) { return farthest(e.to_truth, e.to_picture); },
+               [&](const Curves& e) { return farthest(*e.to_truth, *e.to_picture); }, nothing<Difference>});
+    add(thresholds.psnr, "--min-psnr", "PSNR", "dB", std::less<>{},
+        Figure{[](const Errors& e) { return e.psnr; }, [](const Curves& e) { return e.colors.psnr; },
+               [](const Difference& d) { return d.psnr; }});
     add(
         thresholds.color, "--max-color", "largest colour error", "/255",
         [](double a, double b) { return a > b + 255 * budget::kColorNoise; },
-        [](const Errors& e) { return e.away.max * 255; }, [](const Difference& d) { return d.max * 255; });
-    add(
-        thresholds.islands, "--max-islands", "lost and false islands", "", more,
-        [](const Errors& e) { return static_cast<double>(e.islands.lost + e.islands.invented); }, nothing);
+        Figure{[](const Errors& e) { return e.away.max * 255; }, [](const Curves& e) { return e.colors.max * 255; },
+               [](const Difference& d) { return d.max * 255; }});
+    add(thresholds.islands, "--max-islands", "lost and false islands", "", more,
+        Figure{[](const Errors& e) { return static_cast<double>(e.islands.lost + e.islands.invented); },
+               nothing<Curves>, nothing<Difference>});
     return checks;
 }
 

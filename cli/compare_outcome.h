@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/measure/curve_errors.h"
 #include "compiler/measure/differences.h"
 #include "compiler/measure/errors.h"
 
@@ -29,15 +30,16 @@ struct ThresholdCheck {
     bool passed = true;
 };
 
-/// With a scene `errors` has an entry for each output size, else `differences` has.
+/// With a scene `errors` has an entry for each output size, with a network `curve_errors`, else `differences` has.
 struct CompareOutcome {
     std::string truth, other;           ///< paths
     std::string truth_kind, other_kind; ///< descriptions
     GridSize texels;                    ///< of the other
     std::uint64_t gpu_bytes = 0;        ///< of the other
-    double texel_side = 0;              ///< width units; the unit of distances in texels
-    double height = 0;                  ///< of the canvas, width units
+    double texel_side = 0;              ///< width units; the unit of edges' and curves' distances in texels
+    double height = 0;                  ///< of the canvas, width units; without either 0
     std::vector<measure::SizeErrors> errors;
+    std::vector<measure::CurveErrors> curve_errors;
     std::vector<measure::PictureDifference> differences;
     std::vector<ThresholdCheck> checks;
 };

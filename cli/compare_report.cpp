@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,9 +12,11 @@ namespace fetexc::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using measure::CurveErrors;
 using measure::Distances;
 using measure::PictureDifference;
 using measure::SizeErrors;
+using measure::Spread;
 using measure::TexturePoint;
 
 constexpr int kLabelWidth = 46, kColumnWidth = 16;
@@ -47,22 +48,22 @@ template <class Entry> class Table {
     std::string text_;
 };
 
-using DistancesOf = std::function<const Distances&(const SizeErrors&)>;
-
-void add_distances(Table<SizeErrors>& table, const CompareOutcome& o, const char* label, const DistancesOf& of) {
+/// of: an entry's distances.
+template <class Entry, class Of>
+void add_distances(Table<Entry>& table, const CompareOutcome& o, const char* label, const Of& of) {
     table.heading(label);
     const auto rows = [&](const char* unit, double scale) {
         table.row(fmt::format("  mean, {}", unit),
-                  [&](const SizeErrors& e) { return fmt::format("{:.3g}", of(e).mean * scale); });
+                  [&](const Entry& e) { return fmt::format("{:.3g}", of(e).mean * scale); });
         table.row(fmt::format("  95% are nearer than, {}", unit),
-                  [&](const SizeErrors& e) { return fmt::format("{:.3g}", of(e).p95 * scale); });
-        table.row(fmt::format("  largest, {}", unit), [&](const SizeErrors& e) {
+                  [&](const Entry& e) { return fmt::format("{:.3g}", of(e).p95 * scale); });
+        table.row(fmt::format("  largest, {}", unit), [&](const Entry& e) {
             return fmt::format("{}{:.3g}", of(e).beyond_reach > 0 ? "beyond " : "", of(e).hausdorff * scale);
         });
     };
     rows("texels", 1 / o.texel_side);
     rows("1/1000 of the width", 1000);
-    table.row("  largest at u,v", [&](const SizeErrors& e) {
+    table.row("  largest at u,v", [&](const Entry& e) {
         return of(e).hausdorff > 0 ? place_text(place_of(of(e), o.height)) : std::string("-");
     });
 }
@@ -94,15 +95,53 @@ std::string errors_text(const CompareOutcome& o) {
     return table.text();
 }
 
+/// of: an entry's PictureDifference.
+template <class Entry, class Of> void add_differences(Table<Entry>& table, const Of& of) {
+    table.row("points that differ by more than 1/255, ppm",
+              [&](const Entry& e) { return fmt::format("{:.2f}", of(e).different_ppm); });
+    table.row("largest colour difference, 1/255", [&](const Entry& e) { return steps_text(of(e).max); });
+    table.row("  at u,v", [&](const Entry& e) { return color_place(of(e).max, of(e).place); });
+    table.row("mean colour difference, 1/255", [&](const Entry& e) { return steps_text(of(e).mean); });
+    table.row("PSNR of the anti-aliased pictures, dB", [&](const Entry& e) { return psnr_text(of(e).psnr); });
+}
+
 std::string differences_text(const CompareOutcome& o) {
     Table<PictureDifference> table(o.differences);
     table.row("output, pixels", [](const PictureDifference& d) { return size_text(d.pixels); });
-    table.row("points that differ by more than 1/255, ppm",
-              [](const PictureDifference& d) { return fmt::format("{:.2f}", d.different_ppm); });
-    table.row("largest colour difference, 1/255", [](const PictureDifference& d) { return steps_text(d.max); });
-    table.row("  at u,v", [](const PictureDifference& d) { return color_place(d.max, d.place); });
-    table.row("mean colour difference, 1/255", [](const PictureDifference& d) { return steps_text(d.mean); });
-    table.row("PSNR of the anti-aliased pictures, dB", [](const PictureDifference& d) { return psnr_text(d.psnr); });
+    add_differences(table, [](const PictureDifference& d) -> const PictureDifference& { return d; });
+    return table.text();
+}
+
+template <class Of>
+void add_spread(Table<CurveErrors>& table, const std::string& label, const char* unit, const Of& of) {
+    table.row(fmt::format("{}, mean, {}", label, unit),
+              [&](const CurveErrors& e) { return fmt::format("{:.3g}", of(e).mean); });
+    table.row(fmt::format("  99% are less than, {}", unit),
+              [&](const CurveErrors& e) { return fmt::format("{:.3g}", of(e).p99); });
+    table.row(fmt::format("  largest, {}", unit),
+              [&](const CurveErrors& e) { return fmt::format("{:.3g}", of(e).max); });
+    table.row("  largest at u,v",
+              [&](const CurveErrors& e) { return of(e).max > 0 ? place_text(of(e).place) : std::string("-"); });
+}
+
+std::string curve_errors_text(const CompareOutcome& o) {
+    Table<CurveErrors> table(o.curve_errors);
+    table.row("output, pixels", [](const CurveErrors& e) { return size_text(e.pixels); });
+    table.row("pixels a texel", [](const CurveErrors& e) { return fmt::format("{:.4g}", e.pixels_per_texel); });
+    add_differences(table, [](const CurveErrors& e) -> const PictureDifference& { return e.colors; });
+    const CurveErrors& first = o.curve_errors.front();
+    if (first.angle)
+        add_spread(table, "angle of normals", "degrees",
+                   [](const CurveErrors& e) -> const Spread& { return *e.angle; });
+    if (!first.distance) return table.text();
+    add_distances(table, o, "from the truth's curves to the texture's",
+                  [](const CurveErrors& e) -> const Distances& { return *e.to_picture; });
+    add_distances(table, o, "from the texture's curves to the truth's",
+                  [](const CurveErrors& e) -> const Distances& { return *e.to_truth; });
+    add_spread(table, "error of distances near curves", "texels",
+               [](const CurveErrors& e) -> const Spread& { return *e.distance; });
+    table.row("  points within a texel of curves, plain",
+              [](const CurveErrors& e) { return std::to_string(e.distance->points); });
     return table.text();
 }
 
@@ -153,6 +192,25 @@ Json difference_json(const PictureDifference& d) {
             {"psnrDb", number(d.psnr)}};
 }
 
+Json spread_json(const Spread& s) {
+    return {{"mean", s.mean},
+            {"p99", s.p99},
+            {"max", s.max},
+            {"points", s.points},
+            {"place", s.max > 0 ? place_json(s.place) : Json(nullptr)}};
+}
+
+Json curve_errors_json(const CurveErrors& e, const CompareOutcome& o) {
+    Json out = difference_json(e.colors);
+    out["pixelsPerTexel"] = e.pixels_per_texel;
+    if (e.angle) out["normalDegrees"] = spread_json(*e.angle);
+    if (!e.distance) return out;
+    out["curvesToPicture"] = distances_json(*e.to_picture, o);
+    out["curvesToTruth"] = distances_json(*e.to_truth, o);
+    out["distanceTexels"] = spread_json(*e.distance);
+    return out;
+}
+
 Json checks_json(const std::vector<ThresholdCheck>& checks) {
     Json list = Json::array();
     for (const ThresholdCheck& c : checks) {
@@ -170,19 +228,23 @@ Json checks_json(const std::vector<ThresholdCheck>& checks) {
 std::string compare_text(const CompareOutcome& o) {
     std::string text = fmt::format("truth  {}: {}\nother  {}: {}\n\n", printable(o.truth), o.truth_kind,
                                    printable(o.other), o.other_kind);
-    return text + (o.errors.empty() ? differences_text(o) : errors_text(o));
+    if (!o.errors.empty()) return text + errors_text(o);
+    return text + (o.curve_errors.empty() ? differences_text(o) : curve_errors_text(o));
 }
 
 std::string compare_json(const CompareOutcome& o) {
     Json sizes = Json::array();
     for (const SizeErrors& e : o.errors)
         sizes.push_back(errors_json(e, o));
+    for (const CurveErrors& e : o.curve_errors)
+        sizes.push_back(curve_errors_json(e, o));
     for (const PictureDifference& d : o.differences)
         sizes.push_back(difference_json(d));
+    const char* against = !o.errors.empty() ? "scene" : !o.curve_errors.empty() ? "curves" : "picture";
     const Json document = {{"schema", "fetexc-compare/1"},
                            {"truth", fetex::to_valid_utf8(o.truth)},
                            {"other", fetex::to_valid_utf8(o.other)},
-                           {"against", o.errors.empty() ? "picture" : "scene"},
+                           {"against", against},
                            {"texels", pixels_json(o.texels)},
                            {"gpuBytes", o.gpu_bytes},
                            {"sizes", sizes},

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <fmt/format.h>
+
 namespace fetexc::cli {
 namespace {
 
@@ -37,16 +39,33 @@ std::optional<LightDirection> parse_light(const std::string& text) {
     return unit(v);
 }
 
+Rgba lit_normal(const Rgba& color, const LightDirection& light, bool y_up) {
+    if (!(color.a > 0)) return color;
+    const auto component = [&](double v) { return 2 * v / color.a - 1; };
+    const LightDirection n =
+        unit({component(color.r), y_up ? -component(color.g) : component(color.g), component(color.b)});
+    const double grey = std::clamp(shade(n, light), 0.0, 1.0) * color.a;
+    return {grey, grey, grey, color.a};
+}
+
 void light_normals(fetex::Image& image, const LightDirection& light, bool y_up) {
     for (std::size_t at = 0; at + 3 < image.rgba.size(); at += 4) {
         float* const p = image.rgba.data() + at;
-        const double alpha = static_cast<double>(p[3]);
-        if (!(alpha > 0)) continue;
-        const auto channel = [&](int k) { return 2 * static_cast<double>(p[k]) / alpha - 1; };
-        const LightDirection n = unit({channel(0), y_up ? -channel(1) : channel(1), channel(2)});
-        const auto grey = static_cast<float>(std::clamp(shade(n, light), 0.0, 1.0) * alpha);
-        p[0] = p[1] = p[2] = grey;
+        const auto channel = [&](int k) { return static_cast<double>(p[k]); };
+        const Rgba lit = lit_normal({channel(0), channel(1), channel(2), channel(3)}, light, y_up);
+        p[0] = static_cast<float>(lit.r), p[1] = static_cast<float>(lit.g), p[2] = static_cast<float>(lit.b);
     }
+}
+
+void add_light_option(CLI::App& app, std::optional<LightDirection>& light) {
+    app.add_option_function<std::string>(
+           "--light",
+           [&light](const std::string& text) {
+               light = parse_light(text);
+               if (!light) throw CLI::ValidationError("--light", fmt::format("'{}' is not x,y,z, not all 0", text));
+           },
+           "Colours are normals: the surface lit from there, x right, y down, z out of the picture")
+        ->type_name("X,Y,Z");
 }
 
 } // namespace fetexc::cli

@@ -181,15 +181,7 @@ Command add_render_command(CLI::App& parent) {
                   "Draw what a silhouette-map texture is made of over it: boundaries and points, and magnified enough "
                   "the cells and the texels' colours; of a pinchmap the discontinuities, the active texels and which "
                   "way they pinch; the feature curves, their points on the texels' edges, and the texels");
-    app->add_option_function<std::string>(
-           "--light",
-           [options](const std::string& text) {
-               options->light = parse_light(text);
-               if (!options->light)
-                   throw CLI::ValidationError("--light", fmt::format("'{}' is not x,y,z, not all 0", text));
-           },
-           "Colours are normals: draw the surface lit from there, x right, y down, z out of the picture")
-        ->type_name("X,Y,Z");
+    add_light_option(*app, options->light);
     app->add_option("--normal-y", options->normal_y,
                     "Of --light: green is up or down; default down for curves, whose frame it is, else up")
         ->check(CLI::IsMember({"up", "down"}))

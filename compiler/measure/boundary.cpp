@@ -138,29 +138,9 @@ double PictureBoundary::change_between(std::size_t a, std::size_t b) const {
     return bisect([&](double t) { return pair.takes_for_first(between(a, b, t)); });
 }
 
-Distances PictureBoundary::summary(std::vector<Sample> all) {
-    Distances out;
-    out.points = all.size();
-    double sum = 0, weight = 0;
-    for (const Sample& s : all) {
-        sum += s.weight * s.distance, weight += s.weight;
-        out.beyond_reach += s.beyond ? 1 : 0;
-        if (s.distance > out.hausdorff) out.hausdorff = s.distance, out.farthest = s.place;
-    }
-    if (all.empty()) return out;
-    out.mean = sum / weight;
-    std::stable_sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.distance < b.distance; });
-    double below = 0;
-    for (const Sample& s : all) {
-        below += s.weight, out.p95 = s.distance;
-        if (below >= 0.95 * weight) break;
-    }
-    return out;
-}
-
 Distances PictureBoundary::to_truth() const {
     const GridSize n = grid_.pixels();
-    std::vector<std::vector<Sample>> rows(n.height);
+    std::vector<std::vector<DistanceSample>> rows(n.height);
     parallel_for(n.height, subject_.threads, [&](std::size_t row) {
         const auto add = [&](std::size_t a, std::size_t b, double t) {
             if (t < 0) return;
@@ -174,8 +154,8 @@ Distances PictureBoundary::to_truth() const {
             add(k, k + n.width, down_[k]);
         }
     });
-    std::vector<Sample> all;
-    for (const std::vector<Sample>& row : rows)
+    std::vector<DistanceSample> all;
+    for (const std::vector<DistanceSample>& row : rows)
         all.insert(all.end(), row.begin(), row.end());
     return summary(std::move(all));
 }
@@ -274,7 +254,7 @@ double PictureBoundary::distance_along_normal(const EdgeSample& s) const {
 }
 
 /// A change between sample points counts where it is nearer by more than what joining them by lines may be off.
-PictureBoundary::Sample PictureBoundary::measure_at(const EdgeSample& s) const {
+DistanceSample PictureBoundary::measure_at(const EdgeSample& s) const {
     const double slack = budget::kBoundaryChordError * grid_.pixel_side();
     double nearest = distance_along_normal(s);
     if (nearest > slack) {
@@ -287,7 +267,7 @@ PictureBoundary::Sample PictureBoundary::measure_at(const EdgeSample& s) const {
 
 Distances PictureBoundary::to_picture() const {
     const std::span<const EdgeSample> samples = grid_.truth_samples().edge_samples();
-    std::vector<Sample> all(samples.size());
+    std::vector<DistanceSample> all(samples.size());
     parallel_for_chunks(samples.size(), kSamplesPerTask, subject_.threads, [&](std::size_t first, std::size_t end) {
         for (std::size_t k = first; k < end; ++k)
             all[k] = measure_at(samples[k]);

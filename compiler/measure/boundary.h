@@ -2,6 +2,7 @@
 /// Distances between the truth's visible edges and the boundaries of the picture's classes, both ways.
 #pragma once
 
+#include "compiler/measure/distance_samples.h"
 #include "compiler/measure/edge_index.h"
 #include "compiler/measure/errors.h"
 #include "compiler/measure/sample_grid.h"
@@ -19,11 +20,6 @@ class PictureBoundary {
     [[nodiscard]] Distances to_picture() const;
 
   private:
-    struct Sample {
-        double distance = 0, weight = 1;
-        bool beyond = false;
-        WidthPoint place;
-    };
     /// Of sample points (i,j) … (i+1,j+1).
     struct Square {
         std::uint32_t i = 0, j = 0;
@@ -34,7 +30,6 @@ class PictureBoundary {
         std::size_t first = 0, end = 0;
     };
     class Pair;
-    static Distances summary(std::vector<Sample> all);
     [[nodiscard]] bool on_canvas(WidthPoint p) const;
     [[nodiscard]] double change_between(std::size_t a, std::size_t b) const;
     void find_blocks();
@@ -45,7 +40,7 @@ class PictureBoundary {
     [[nodiscard]] double distance_in_blocks(WidthPoint p, double best) const;
     [[nodiscard]] double distance_to_changes(WidthPoint p, double best) const;
     [[nodiscard]] double distance_along_normal(const EdgeSample& s) const;
-    [[nodiscard]] Sample measure_at(const EdgeSample& s) const;
+    [[nodiscard]] DistanceSample measure_at(const EdgeSample& s) const;
 
     const Subject& subject_;
     const SampleGrid& grid_;

@@ -21,9 +21,21 @@ struct RowDifference {
     TexturePoint place;
 };
 
+constexpr unsigned kPoints = 4; ///< along a side
+
+Rgba point_mean(const Picture& picture, const PixelArea& area) {
+    Rgba sum{0, 0, 0, 0};
+    for (unsigned k = 0; k < kPoints * kPoints; ++k)
+        add(sum,
+            picture.at({area.u + (k % kPoints + 0.5) / kPoints * area.width,
+                        area.v + (k / kPoints + 0.5) / kPoints * area.height}),
+            1.0 / (kPoints * kPoints));
+    return sum;
+}
+
 } // namespace
 
-std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads) {
+std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads, PixelMeans how) {
     std::vector<Rgba> means(std::size_t{pixels.width} * pixels.height);
     const double w = 1.0 / pixels.width, h = 1.0 / pixels.height;
     parallel_for(pixels.height, threads, [&](std::size_t row) {
@@ -33,8 +45,11 @@ std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned th
             corners[1] = picture.at({(i + 1) * w, y * h}), corners[3] = picture.at({(i + 1) * w, (y + 1) * h});
             Rgba& mean = means[row * pixels.width + i];
             mean = picture.at({(i + 0.5) * w, (y + 0.5) * h});
-            if (!is_linear(corners, mean))
-                mean = supersampled(picture, {i * w, y * h, w, h}, MeasureOptions{}.supersample);
+            if (!is_linear(corners, mean)) {
+                const PixelArea area{i * w, y * h, w, h};
+                mean = how == PixelMeans::Smooth ? point_mean(picture, area)
+                                                 : supersampled(picture, area, MeasureOptions{}.supersample);
+            }
             corners[0] = corners[1], corners[2] = corners[3];
         }
     });
@@ -49,7 +64,7 @@ double mean_square_error(const std::vector<Rgba>& a, const std::vector<Rgba>& b)
     return a.empty() ? 0 : sum / static_cast<double>(a.size());
 }
 
-PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads) {
+PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads, PixelMeans means) {
     std::vector<RowDifference> rows(pixels.height);
     parallel_for(pixels.height, threads, [&](std::size_t j) {
         RowDifference& row = rows[j];
@@ -71,7 +86,8 @@ PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels
         if (row.max > total.max) total.max = row.max, total.place = row.place;
     }
     total.different_ppm = static_cast<double>(different) * 1e6 / points;
-    total.psnr = decibels(mean_square_error(box_means(a, pixels, threads), box_means(b, pixels, threads)));
+    total.psnr =
+        decibels(mean_square_error(box_means(a, pixels, threads, means), box_means(b, pixels, threads, means)));
     return total;
 }
 

@@ -18,12 +18,19 @@ struct PictureDifference {
     double psnr = 0;    ///< dB, of the box means, over black and over white; infinite for equal pictures
 };
 
-/// pixels: 1 … 16384 on each side. The same figures for any number of threads.
-PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads);
+/// How means over pixels are found that aren't as good as linear.
+enum class PixelMeans : std::uint8_t {
+    Jumps,  ///< pictures of few colours: exact where they change (measure/pixel_means.h)
+    Smooth, ///< pictures that change everywhere: at 4 × 4 points, the same of all pictures
+};
 
-/// Box means of all pixels, row-major (measure/pixel_means.h). Edges that neither a pixel's corners nor its centre
-/// betray are missed.
-std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads);
+/// pixels: 1 … 16384 on each side. The same figures for any number of threads.
+PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads,
+                             PixelMeans means = PixelMeans::Jumps);
+
+/// Box means of all pixels, row-major. Edges that neither a pixel's corners nor its centre betray are missed.
+std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads,
+                            PixelMeans means = PixelMeans::Jumps);
 
 /// Mean square error of r, g, b over black and over white.
 double mean_square_error(const std::vector<Rgba>& a, const std::vector<Rgba>& b);

@@ -2,6 +2,7 @@
 /// Pictures to judge: vector textures through the reference samplers, and a bitmap.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -95,6 +96,21 @@ inline std::unique_ptr<const Picture> picture_of(const fetex::PinchmapTexture& t
 inline std::unique_ptr<const Picture> picture_of(const fetex::FeatureCurvesTexture& t) {
     return std::make_unique<FeatureCurvesPicture>(t);
 }
+
+/// Another picture, with its colours changed one by one, as by a light on normals.
+class SeenPicture final : public Picture {
+  public:
+    /// Both outlive it.
+    SeenPicture(const Picture& picture, const std::function<Rgba(const Rgba&)>& seen)
+        : picture_(picture), seen_(seen) {}
+    [[nodiscard]] Rgba at(TexturePoint p) const override { return seen_(picture_.at(p)); }
+    [[nodiscard]] GridSize texels() const override { return picture_.texels(); }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override { return picture_.gpu_bytes(); }
+
+  private:
+    const Picture& picture_;
+    const std::function<Rgba(const Rgba&)>& seen_;
+};
 
 /// Stretched over the canvas, without mip levels; borders are clamped.
 class BitmapPicture final : public Picture {
