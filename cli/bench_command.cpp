@@ -112,6 +112,7 @@ int run_bench(BenchOptions options) {
         return report_error({ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt: its sizes are swept", {}});
     options.sweep.bilevel = std::ranges::count(options.representations, "bilevel") > 0;
     options.sweep.silmap = std::ranges::count(options.representations, "silmap") > 0;
+    options.sweep.curves = std::ranges::count(options.representations, "curves") > 0;
     options.sweep.pinchmap = std::ranges::count(options.representations, "pinchmap") > 0;
     std::optional<SamplerTimer> timer; // before anything starts a thread
     if (options.sweep.timing) {
@@ -141,12 +142,16 @@ Command add_bench_command(CLI::App& parent) {
     options->sweep.sizes = {16, 32, 64, 128, 256};
     options->sweep.outputs = {512};
     CLI::App* app = parent.add_subcommand("bench", "Measure error, bytes and time over sizes, beside other textures");
-    app->add_option("inputs", options->inputs, "SVG or SVGZ files, or - for stdin")->required()->type_name("FILE");
+    app->add_option("inputs", options->inputs, "SVG or SVGZ files, networks of curves, or - for stdin")
+        ->required()
+        ->type_name("FILE");
     add_sizes(*app, "--size", options->sweep.sizes, "Texels on the longer side (default 16,32,64,128,256)");
     add_sizes(*app, "--output-size", options->sweep.outputs,
               "Pixels on the longer side where errors are measured; plots show the last (default 512)");
-    app->add_option("--repr", options->representations,
-                    "Representations: fbt, whose sizes are swept, bilevel, silmap and pinchmap (default: all)")
+    app->add_option(
+           "--repr", options->representations,
+           "Representations: fbt, whose sizes are swept, bilevel, silmap and pinchmap in its bytes, and curves, "
+           "held against what their profiles make of a plane (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");

@@ -11,13 +11,16 @@
 namespace fetexc::cli {
 namespace {
 
+using measure::CurveErrors;
 using measure::Distances;
 using measure::SizeErrors;
+using measure::Spread;
 
-/// errors is null where there are no figures.
+/// errors and curves are both null where there are no figures.
 struct Row {
     const BenchPoint& point;
     const SizeErrors* errors;
+    const CurveErrors* curves;
     bool last_output; ///< the one that the bitmap of equal error was looked for at
 };
 struct Column {
@@ -32,11 +35,46 @@ std::string figure(double v) { return fmt::format("{:.5g}", v); }
 std::string color(double v) { return v < budget::kColorNoise ? std::string("0") : figure(v * 255); }
 
 using DistanceFigure = double Distances::*;
-Column distance(const char* name, Distances SizeErrors::*way, DistanceFigure which, bool texels) {
+/// Of edges, or of curves.
+struct Way {
+    Distances SizeErrors::*edges;
+    std::optional<Distances> CurveErrors::*curves;
+
+    [[nodiscard]] const Distances* of(const Row& r) const {
+        if (r.errors != nullptr) return &(r.errors->*edges);
+        return r.curves != nullptr && r.curves->*curves ? &*(r.curves->*curves) : nullptr;
+    }
+};
+constexpr Way kToPicture{&SizeErrors::to_picture, &CurveErrors::to_picture},
+    kToTruth{&SizeErrors::to_truth, &CurveErrors::to_truth};
+
+Column distance(const char* name, Way way, DistanceFigure which, bool texels) {
     return {name, [=](const Row& r) {
-                if (r.errors == nullptr) return std::string();
-                const double width_units = r.errors->*way.*which;
-                return figure(texels ? width_units / r.point.texel_side : width_units * 1000);
+                const Distances* d = way.of(r);
+                if (d == nullptr) return std::string();
+                return figure(texels ? d->*which / r.point.texel_side : d->*which * 1000);
+            }};
+}
+
+Column beyond_reach(const char* name, Way way) {
+    return {name, [=](const Row& r) {
+                const Distances* d = way.of(r);
+                return d == nullptr ? std::string() : std::to_string(d->beyond_reach);
+            }};
+}
+
+/// What both kinds of figures have.
+template <class Of> Column of_either(const char* name, const Of& of) {
+    return {name, [of](const Row& r) {
+                return r.errors != nullptr   ? of(r.errors->pixels, r.errors->psnr)
+                       : r.curves != nullptr ? of(r.curves->pixels, r.curves->colors.psnr)
+                                             : std::string();
+            }};
+}
+
+Column spread(const char* name, std::optional<Spread> CurveErrors::*which, double Spread::*value) {
+    return {name, [=](const Row& r) {
+                return r.curves != nullptr && r.curves->*which ? figure((*(r.curves->*which)).*value) : std::string();
             }};
 }
 
@@ -66,7 +104,9 @@ std::vector<Column> texture_columns() {
             {"width (texels)", [](const Row& r) { return std::to_string(r.point.texels.width); }},
             {"height (texels)", [](const Row& r) { return std::to_string(r.point.texels.height); }},
             {"size (bytes)",
-             [](const Row& r) { return r.errors == nullptr ? std::string() : std::to_string(r.point.bytes); }},
+             [](const Row& r) {
+                 return r.errors == nullptr && r.curves == nullptr ? std::string() : std::to_string(r.point.bytes);
+             }},
             {"note", [](const Row& r) { return csv_field(r.point.note); }}};
 }
 
@@ -74,31 +114,35 @@ std::vector<Column> error_columns() {
     using E = SizeErrors;
     using D = Distances;
     return {
-        of_errors("output width (px)", [](const E& e) { return std::to_string(e.pixels.width); }),
-        of_errors("output height (px)", [](const E& e) { return std::to_string(e.pixels.height); }),
+        of_either("output width (px)", [](GridSize pixels, double) { return std::to_string(pixels.width); }),
+        of_either("output height (px)", [](GridSize pixels, double) { return std::to_string(pixels.height); }),
         of_errors("misclassified area (ppm)", [](const E& e) { return figure(e.misclassified_ppm); }),
         of_errors("standard deviation of sampling (ppm)", [](const E& e) { return figure(e.misclassified_error_ppm); }),
-        distance("truth's edges to picture's: mean (texels)", &E::to_picture, &D::mean, true),
-        distance("truth's edges to picture's: p95 (texels)", &E::to_picture, &D::p95, true),
-        distance("truth's edges to picture's: Hausdorff (texels)", &E::to_picture, &D::hausdorff, true),
-        distance("truth's edges to picture's: mean (1/1000 width)", &E::to_picture, &D::mean, false),
-        distance("truth's edges to picture's: p95 (1/1000 width)", &E::to_picture, &D::p95, false),
-        distance("truth's edges to picture's: Hausdorff (1/1000 width)", &E::to_picture, &D::hausdorff, false),
-        of_errors("truth's edges to picture's: points beyond reach",
-                  [](const E& e) { return std::to_string(e.to_picture.beyond_reach); }),
-        distance("picture's edges to truth's: mean (texels)", &E::to_truth, &D::mean, true),
-        distance("picture's edges to truth's: p95 (texels)", &E::to_truth, &D::p95, true),
-        distance("picture's edges to truth's: Hausdorff (texels)", &E::to_truth, &D::hausdorff, true),
-        distance("picture's edges to truth's: mean (1/1000 width)", &E::to_truth, &D::mean, false),
-        distance("picture's edges to truth's: p95 (1/1000 width)", &E::to_truth, &D::p95, false),
-        distance("picture's edges to truth's: Hausdorff (1/1000 width)", &E::to_truth, &D::hausdorff, false),
-        of_errors("picture's edges to truth's: points beyond reach",
-                  [](const E& e) { return std::to_string(e.to_truth.beyond_reach); }),
-        of_errors("PSNR (dB)", [](const E& e) { return fmt::format("{:.2f}", e.psnr); }),
+        distance("truth's edges to picture's: mean (texels)", kToPicture, &D::mean, true),
+        distance("truth's edges to picture's: p95 (texels)", kToPicture, &D::p95, true),
+        distance("truth's edges to picture's: Hausdorff (texels)", kToPicture, &D::hausdorff, true),
+        distance("truth's edges to picture's: mean (1/1000 width)", kToPicture, &D::mean, false),
+        distance("truth's edges to picture's: p95 (1/1000 width)", kToPicture, &D::p95, false),
+        distance("truth's edges to picture's: Hausdorff (1/1000 width)", kToPicture, &D::hausdorff, false),
+        beyond_reach("truth's edges to picture's: points beyond reach", kToPicture),
+        distance("picture's edges to truth's: mean (texels)", kToTruth, &D::mean, true),
+        distance("picture's edges to truth's: p95 (texels)", kToTruth, &D::p95, true),
+        distance("picture's edges to truth's: Hausdorff (texels)", kToTruth, &D::hausdorff, true),
+        distance("picture's edges to truth's: mean (1/1000 width)", kToTruth, &D::mean, false),
+        distance("picture's edges to truth's: p95 (1/1000 width)", kToTruth, &D::p95, false),
+        distance("picture's edges to truth's: Hausdorff (1/1000 width)", kToTruth, &D::hausdorff, false),
+        beyond_reach("picture's edges to truth's: points beyond reach", kToTruth),
+        of_either("PSNR (dB)", [](GridSize, double psnr) { return fmt::format("{:.2f}", psnr); }),
         of_errors("largest colour error away from edges (1/255)", [](const E& e) { return color(e.away.max); }),
         of_errors("mean colour error away from edges (1/255)", [](const E& e) { return color(e.away.mean); }),
         of_errors("islands lost", [](const E& e) { return std::to_string(e.islands.lost); }),
         of_errors("islands false", [](const E& e) { return std::to_string(e.islands.invented); }),
+        spread("normals off: mean (degrees)", &CurveErrors::angle, &Spread::mean),
+        spread("normals off: p99 (degrees)", &CurveErrors::angle, &Spread::p99),
+        spread("normals off: largest (degrees)", &CurveErrors::angle, &Spread::max),
+        spread("distances off near curves: mean (texels)", &CurveErrors::distance, &Spread::mean),
+        spread("distances off near curves: p99 (texels)", &CurveErrors::distance, &Spread::p99),
+        spread("distances off near curves: largest (texels)", &CurveErrors::distance, &Spread::max),
     };
 }
 
@@ -159,9 +203,14 @@ std::string bench_csv(const std::vector<BenchFile>& files, bool timed) {
     out += "\n";
     for (const BenchFile& file : files) {
         for (const BenchPoint& point : file.points) {
-            if (point.errors.empty()) add_line(out, columns, {point, nullptr, true});
+            if (point.errors.empty()) add_line(out, columns, {point, nullptr, nullptr, true});
             for (const SizeErrors& e : point.errors)
-                add_line(out, columns, {point, &e, &e == &point.errors.back()});
+                add_line(out, columns, {point, &e, nullptr, &e == &point.errors.back()});
+        }
+        for (const BenchPoint& point : file.curve_points) {
+            if (point.curve_errors.empty()) add_line(out, columns, {point, nullptr, nullptr, true});
+            for (const CurveErrors& e : point.curve_errors)
+                add_line(out, columns, {point, nullptr, &e, &e == &point.curve_errors.back()});
         }
     }
     return out;

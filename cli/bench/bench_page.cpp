@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,10 +34,20 @@ std::string name_of(const BenchFile& file) {
     return escaped(fetex::to_valid_utf8(std::filesystem::path(file.path).stem().string()));
 }
 
+/// Drawings, not networks.
 FileGroup all_of(const std::vector<BenchFile>& files) {
     FileGroup group;
-    for (const BenchFile& f : files)
-        group.push_back(&f);
+    for (const BenchFile& f : files) {
+        if (!f.points.empty()) group.push_back(&f);
+    }
+    return group;
+}
+
+FileGroup with_curves(const std::vector<BenchFile>& files) {
+    FileGroup group;
+    for (const BenchFile& f : files) {
+        if (!f.curve_points.empty() && !f.curve_points.front().curve_errors.empty()) group.push_back(&f);
+    }
     return group;
 }
 
@@ -49,10 +60,10 @@ FileGroup two_colored(const std::vector<BenchFile>& files) {
 }
 
 /// In any plot of the group: those of single drawings show what applies to them.
-std::vector<std::string> methods_shown(const FileGroup& group) {
+std::vector<std::string> methods_shown(const FileGroup& group, ErrorAxis error) {
     std::vector<std::string> shown;
     for (const BenchFile* file : group) {
-        const std::vector<std::string> methods = methods_of({file});
+        const std::vector<std::string> methods = methods_of({file}, error);
         shown.insert(shown.end(), methods.begin(), methods.end());
     }
     return shown;
@@ -91,6 +102,21 @@ std::string legend(const std::vector<std::string>& methods) {
     return out + "</ul>\n";
 }
 
+std::string curve_legend(const std::vector<std::string>& methods) {
+    constexpr std::array<const char*, 3> kTexts = {
+        "what fetexc makes of curves: every cell of the texture carries the curves that cross it, its corners the "
+        "distance to them, and a small table what is done at each distance",
+        "an ordinary texture of normals, smoothed by the graphics card between its cells",
+        "the same with straight lines for curves in each cell: less memory a cell, and a faster lookup. Drawings of "
+        "lines have it anyway"};
+    std::string out = "<ul class=\"legend\">\n";
+    for (std::size_t k = 0; k < kTexts.size(); ++k) {
+        if (std::ranges::count(methods, curve_methods()[k]) == 0) continue;
+        out += fmt::format("<li>{} <b>{}</b>: {}.</li>\n", legend_svg(k), escaped(curve_methods()[k]), kTexts[k]);
+    }
+    return out + "</ul>\n";
+}
+
 struct PlotText {
     ErrorAxis error;
     CostAxis cost;
@@ -112,9 +138,20 @@ constexpr PlotText kPlots[] = {
      "How far the colours of the drawn pixels are off on average, edges smoothed, for the memory that the texture "
      "takes; lower is more accurate, further left is smaller."}};
 
-std::string plots_of(const FileGroup& group, const BenchPageFacts& facts) {
+constexpr PlotText kCurvePlots[] = {
+    {ErrorAxis::NormalAngle, CostAxis::Bytes, "Error against memory",
+     "How far the normals are off on average, for the memory that the texture takes; lower is more accurate, further "
+     "left is smaller."},
+    {ErrorAxis::NormalAngle, CostAxis::CompileTime, "Error against the time it takes to make the texture",
+     "The same for the processor time that making the texture took. The ordinary normal map is made here of the exact "
+     "surface, for accuracy and not for speed."},
+    {ErrorAxis::NormalAngle, CostAxis::SamplerCost, "Error against the time it takes to look a normal up",
+     "The same for the time that drawing with the texture takes beside an ordinary one of the same bytes (1 is as "
+     "fast)."}};
+
+std::string plots_of(const FileGroup& group, std::span<const PlotText> texts, const BenchPageFacts& facts) {
     std::string out;
-    for (const PlotText& text : kPlots) {
+    for (const PlotText& text : texts) {
         const Plot plot = mean_plot(group, text.error, text.cost);
         if (plot.lines.empty()) continue;
         out += fmt::format("<h3>{}</h3>\n<p>{}</p>\n<figure>{}</figure>\n", text.heading, text.sentence,
@@ -127,12 +164,11 @@ std::string plots_of(const FileGroup& group, const BenchPageFacts& facts) {
     return out;
 }
 
-std::string small_plots_of(const FileGroup& group, const char* which) {
-    std::string out =
-        fmt::format("<h3>Each drawing on its own</h3>\n<p>Wrong area against memory as above, for {}; all with "
-                    "the same axes. Down and to the left is better.</p>\n<div class=\"small\">\n",
-                    which);
-    for (const Plot& plot : small_plots(group, ErrorAxis::WrongArea))
+std::string small_plots_of(const FileGroup& group, ErrorAxis error, const char* which) {
+    std::string out = fmt::format("<h3>Each drawing on its own</h3>\n<p>{} against memory as above, for {}; all with "
+                                  "the same axes. Down and to the left is better.</p>\n<div class=\"small\">\n",
+                                  error == ErrorAxis::NormalAngle ? "Normals off" : "Wrong area", which);
+    for (const Plot& plot : small_plots(group, error))
         out += plot_svg(plot, false);
     return out + "</div>\n";
 }
@@ -193,6 +229,50 @@ std::string table_of(const std::vector<BenchFile>& files) {
     return out + "</tbody></table></div>\n";
 }
 
+std::string curve_row(const BenchFile& file, const BenchPoint& p, bool first) {
+    std::string row = fmt::format("<tr{}><td>{}</td><td>{}</td><td>{} × {}</td>", first ? " class=\"first\"" : "",
+                                  first ? name_of(file) : "", escaped(p.method), p.texels.width, p.texels.height);
+    const measure::CurveErrors& e = p.curve_errors.back();
+    const auto cell = [&](const std::string& text) { row += "<td>" + text + "</td>"; };
+    const auto optional_cell = [&](const auto& of, const auto& text) { cell(of ? text(*of) : std::string()); };
+    cell(bytes_label(static_cast<double>(p.bytes)));
+    cell(fmt::format("{:.3f}", e.angle->mean));
+    cell(fmt::format("{:.2f}", e.angle->p99));
+    optional_cell(e.to_picture, [](const measure::Distances& d) { return fmt::format("{:.4f}", d.mean * 1000); });
+    optional_cell(e.to_picture, [](const measure::Distances& d) { return fmt::format("{:.3f}", d.hausdorff * 1000); });
+    optional_cell(e.distance, [](const measure::Spread& s) { return fmt::format("{:.4f}", s.mean); });
+    cell(psnr_cell(e.colors.psnr));
+    cell(p.times ? fmt::format("{:.3g}", p.times->compile_ratio) : "");
+    cell(lookup_cell(p));
+    return row + "</tr>\n";
+}
+
+std::string curve_table_of(const FileGroup& files) {
+    std::string out =
+        "<div class=\"wide\"><table>\n<thead><tr><th>drawing</th><th>method</th><th>texels</th><th>memory</th>"
+        "<th>normals off on average, degrees</th><th>99% are off by less than, degrees</th><th>curves off on average, "
+        "1/1000 of the width</th><th>curves off at most, 1/1000 of the width</th><th>distances off near curves, "
+        "texels</th><th>PSNR, dB</th><th>time to make, sorts</th><th>time of a lookup (of the mean over a pixel), "
+        "plain "
+        "lookups</th></tr></thead>\n<tbody>\n";
+    for (const BenchFile* file : files) {
+        for (const BenchPoint& p : file->curve_points)
+            out += curve_row(*file, p, &p == &file->curve_points.front());
+    }
+    return out + "</tbody></table></div>\n";
+}
+
+std::string curve_section(const FileGroup& group, const BenchPageFacts& facts) {
+    return fmt::format(
+        "<h2>Curves of {}</h2>\n<p>The drawings' lines and edges as folds of a surface (a crease as wide "
+        "as a 64th of the picture on either side, unless a network says otherwise), in normals, held "
+        "against the exact surface; the textures have the same memory.</p>\n{}{}{}<h3>Figures of "
+        "curves</h3>\n{}",
+        drawings(group.size()), curve_legend(methods_shown(group, ErrorAxis::NormalAngle)),
+        plots_of(group, kCurvePlots, facts), small_plots_of(group, ErrorAxis::NormalAngle, "every one with curves"),
+        curve_table_of(group));
+}
+
 std::string how_measured(const std::vector<BenchFile>& files, const BenchPageFacts& facts) {
     std::string out = fmt::format(
         "<ul>\n<li>Sizes swept: {} texels on the longer side of the feature-based texture; the other textures have at "
@@ -231,14 +311,20 @@ std::string how_measured(const std::vector<BenchFile>& files, const BenchPageFac
 
 std::string section(const FileGroup& group, const std::string& heading, const char* which,
                     const BenchPageFacts& facts) {
-    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_shown(group)), plots_of(group, facts),
-                       small_plots_of(group, which));
+    return fmt::format("<h2>{}</h2>\n{}{}{}", heading, legend(methods_shown(group, ErrorAxis::WrongArea)),
+                       plots_of(group, kPlots, facts), small_plots_of(group, ErrorAxis::WrongArea, which));
 }
 
 } // namespace
 
 std::string bench_plot(const std::vector<BenchFile>& files) {
     const FileGroup all = all_of(files), plain = two_colored(files);
+    if (all.empty()) { // networks alone
+        const FileGroup curves = with_curves(files);
+        Plot plot = mean_plot(curves, ErrorAxis::NormalAngle, CostAxis::Bytes);
+        plot.title = fmt::format("Error against memory, curves of {}", drawings(curves.size()));
+        return plot_svg(plot, true);
+    }
     const bool use_plain = !plain.empty();
     Plot plot = mean_plot(use_plain ? plain : all, ErrorAxis::WrongArea, CostAxis::Bytes);
     plot.title = fmt::format("Error against memory, mean of {}{}", drawings(use_plain ? plain.size() : all.size()),
@@ -263,13 +349,15 @@ std::string bench_page(const std::vector<BenchFile>& files, const BenchPageFacts
         "each step along them multiplies.</p>\n",
         drawings(files.size()));
     const FileGroup all = all_of(files), plain = two_colored(files);
-    out += section(all, files.size() == 1 ? "The drawing" : fmt::format("All {}", drawings(files.size())),
-                   "every drawing", facts);
+    if (!all.empty())
+        out += section(all, all.size() == 1 ? "The drawing" : fmt::format("All {}", drawings(all.size())),
+                       "every drawing", facts);
     if (!plain.empty() && plain.size() < all.size())
         out += section(plain, fmt::format("The {} of two plain colours", drawings(plain.size())),
                        "those of two plain colours", facts);
+    if (const FileGroup curves = with_curves(files); !curves.empty()) out += curve_section(curves, facts);
     out += "<h2>How this was measured</h2>\n" + how_measured(files, facts);
-    out += "<h2>All figures</h2>\n" + table_of(files);
+    if (!all.empty()) out += "<h2>All figures</h2>\n" + table_of(files);
     return out + "</body>\n</html>\n";
 }
 

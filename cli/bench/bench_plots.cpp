@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -24,7 +25,13 @@ struct ErrorFigure {
     bool at_most = false;
 };
 
+constexpr double kLeastAngle = 1e-3; ///< degrees: plots take no 0
+
 ErrorFigure error_of(const BenchPoint& point, ErrorAxis axis) {
+    if (axis == ErrorAxis::NormalAngle) {
+        const double angle = point.curve_errors.back().angle->mean;
+        return {std::max(angle, kLeastAngle), angle < kLeastAngle};
+    }
     const measure::SizeErrors& e = point.errors.back();
     if (axis == ErrorAxis::ColorError)
         return {percent_of(std::min(e.psnr, budget::kBestPsnr)), e.psnr > budget::kBestPsnr};
@@ -40,17 +47,21 @@ std::optional<double> cost_of(const BenchPoint& point, CostAxis axis) {
     return point.times->sampler->median;
 }
 
-const BenchPoint* find(const BenchFile& file, const std::string& method, std::uint32_t size) {
-    for (const BenchPoint& p : file.points) {
-        if (p.method == method && p.size == size && !p.errors.empty()) return &p;
+const std::vector<BenchPoint>& points_of(const BenchFile& file, ErrorAxis axis) {
+    return axis == ErrorAxis::NormalAngle ? file.curve_points : file.points;
+}
+
+const BenchPoint* find(const BenchFile& file, const std::string& method, std::uint32_t size, ErrorAxis axis) {
+    for (const BenchPoint& p : points_of(file, axis)) {
+        if (p.method == method && p.size == size && !(p.errors.empty() && p.curve_errors.empty())) return &p;
     }
     return nullptr;
 }
 
-std::vector<std::uint32_t> sizes_of(const FileGroup& group) {
+std::vector<std::uint32_t> sizes_of(const FileGroup& group, ErrorAxis axis) {
     std::vector<std::uint32_t> sizes;
     for (const BenchFile* file : group) {
-        for (const BenchPoint& p : file->points) {
+        for (const BenchPoint& p : points_of(*file, axis)) {
             if (std::find(sizes.begin(), sizes.end(), p.size) == sizes.end()) sizes.push_back(p.size);
         }
     }
@@ -59,8 +70,9 @@ std::vector<std::uint32_t> sizes_of(const FileGroup& group) {
 }
 
 std::string describe(std::uint32_t size, double x, CostAxis cost, double y, ErrorAxis error) {
-    const std::string what = error == ErrorAxis::WrongArea ? fmt::format("{:.3g} ppm of the area wrong", y)
-                                                           : fmt::format("{:.3g}% colour error", y);
+    const std::string what = error == ErrorAxis::WrongArea     ? fmt::format("{:.3g} ppm of the area wrong", y)
+                             : error == ErrorAxis::NormalAngle ? fmt::format("normals off by {:.3g} degrees", y)
+                                                               : fmt::format("{:.3g}% colour error", y);
     switch (cost) {
     case CostAxis::Bytes:
         return fmt::format("size {}: {}, {}", size, bytes_label(x), what);
@@ -77,7 +89,7 @@ std::optional<PlotPoint> mean_point(const FileGroup& group, const std::string& m
     double log_x = 0, log_y = 0;
     PlotPoint point;
     for (const BenchFile* file : group) {
-        const BenchPoint* p = find(*file, method, size);
+        const BenchPoint* p = find(*file, method, size, error);
         const std::optional<double> x = p == nullptr ? std::nullopt : cost_of(*p, cost);
         if (!x || !(*x > 0)) return std::nullopt;
         const ErrorFigure y = error_of(*p, error);
@@ -92,9 +104,11 @@ std::optional<PlotPoint> mean_point(const FileGroup& group, const std::string& m
 
 std::vector<PlotLine> mean_lines(const FileGroup& group, ErrorAxis error, CostAxis cost) {
     std::vector<PlotLine> lines;
-    for (std::size_t style = 0; style < bench_methods().size(); ++style) {
-        PlotLine line{bench_methods()[style], style, {}};
-        for (const std::uint32_t size : sizes_of(group)) {
+    const std::span<const std::string> methods =
+        error == ErrorAxis::NormalAngle ? std::span<const std::string>(curve_methods()) : bench_methods();
+    for (std::size_t style = 0; style < methods.size(); ++style) {
+        PlotLine line{methods[style], style, {}};
+        for (const std::uint32_t size : sizes_of(group, error)) {
             if (auto point = mean_point(group, line.name, size, error, cost)) line.points.push_back(std::move(*point));
         }
         if (!line.points.empty()) lines.push_back(std::move(line));
@@ -103,6 +117,9 @@ std::vector<PlotLine> mean_lines(const FileGroup& group, ErrorAxis error, CostAx
 }
 
 Axis error_axis(ErrorAxis axis, bool brief) {
+    if (axis == ErrorAxis::NormalAngle)
+        return {
+            brief ? "normals off, degrees" : "Angle that normals are off by on average, degrees", AxisUnit::Count, {}};
     if (axis == ErrorAxis::ColorError)
         return {brief ? "colour error, %" : "Colour error of the anti-aliased picture, % (root mean square)",
                 AxisUnit::Count,
@@ -143,9 +160,14 @@ const std::array<std::string, kPlotStyles>& bench_methods() {
     return names;
 }
 
-std::vector<std::string> methods_of(const FileGroup& group) {
+const std::vector<std::string>& curve_methods() {
+    static const std::vector<std::string> names = {kCurvesMethod, kNormalMapMethod, kStraightCurvesMethod};
+    return names;
+}
+
+std::vector<std::string> methods_of(const FileGroup& group, ErrorAxis error) {
     std::vector<std::string> methods;
-    for (const PlotLine& line : mean_lines(group, ErrorAxis::WrongArea, CostAxis::Bytes))
+    for (const PlotLine& line : mean_lines(group, error, CostAxis::Bytes))
         methods.push_back(line.name);
     return methods;
 }
@@ -162,6 +184,8 @@ Plot mean_plot(const FileGroup& group, ErrorAxis error, CostAxis cost) {
             error == ErrorAxis::WrongArea
                 ? std::string(
                       "Hollow marks: in some drawing no sample point at all was wrong; half a point counts there.")
+            : error == ErrorAxis::NormalAngle
+                ? fmt::format("Hollow marks: in some drawing normals are right; {:g} degrees count there.", kLeastAngle)
                 : fmt::format("Hollow marks: in some drawing the error is too small to tell; {:g}% counts there.",
                               percent_of(budget::kBestPsnr));
     return plot;

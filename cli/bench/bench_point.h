@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/measure/curve_errors.h"
 #include "compiler/measure/equal_error.h"
 #include "compiler/measure/errors.h"
 #include "runtime_glsl/host/sampler_cost.h"
@@ -20,6 +21,10 @@ inline constexpr const char* kBilevelMethod = "bi-level of 1 to 3 channels";
 inline constexpr const char* kSilmapMethod = "silhouette map";
 inline constexpr const char* kSilmapWideMethod = "silhouette map, 16-bit cells";
 inline constexpr const char* kPinchmapMethod = "pinchmap";
+/// Of curves (curve_sweep.h).
+inline constexpr const char* kCurvesMethod = "feature curves";
+inline constexpr const char* kStraightCurvesMethod = "straight feature curves";
+inline constexpr const char* kNormalMapMethod = "bilinear normal map";
 
 /// By the clock, in one run on one machine.
 struct BenchTimes {
@@ -34,12 +39,14 @@ struct BenchPoint {
     std::string file;
     std::string method;
     std::string options;    ///< "size=64"
-    std::uint32_t size = 0; ///< of the sweep: texels on the FBT's longer side; alternatives have its bytes
+    std::uint32_t size = 0; ///< of the sweep: texels on the longer side of the FBT, or of the texture with feature
+                            ///< curves; the others have its bytes
     GridSize texels;
-    std::uint64_t bytes = 0;                 ///< on a GPU
-    std::string note;                        ///< why there are no figures, e.g. "not applicable: 5 colours"
-    double texel_side = 0;                   ///< width units
-    std::vector<measure::SizeErrors> errors; ///< one entry for each output size
+    std::uint64_t bytes = 0;                             ///< on a GPU
+    std::string note;                                    ///< why there are no figures, e.g. "not applicable: 5 colours"
+    double texel_side = 0;                               ///< width units
+    std::vector<measure::SizeErrors> errors;             ///< one entry for each output size
+    std::vector<measure::CurveErrors> curve_errors = {}; ///< instead, of what is made of curves
     std::optional<measure::EqualErrorBitmap> equal_bitmap; ///< for FBTs: at the last output size
     std::optional<BenchTimes> times;
 };
@@ -47,8 +54,9 @@ struct BenchPoint {
 /// A drawing and everything made of it.
 struct BenchFile {
     std::string path;
-    bool two_colors = false; ///< textures of one channel apply
-    std::vector<BenchPoint> points;
+    bool two_colors = false;                   ///< textures of one channel apply
+    std::vector<BenchPoint> points = {};       ///< none of a network
+    std::vector<BenchPoint> curve_points = {}; ///< held against what its curves should show
 };
 
 } // namespace fetexc::cli

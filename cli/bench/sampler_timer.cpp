@@ -97,6 +97,16 @@ std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::PinchmapT
     return timed(upload(texture), fetex::Sampler::PinchmapArea);
 }
 
+std::optional<fetex::SamplerCost> SamplerTimer::cost(const fetex::FeatureCurvesTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(gl_->upload_feature_curves(texture), fetex::Sampler::FeatureCurves);
+}
+
+std::optional<fetex::SamplerCost> SamplerTimer::area_cost(const fetex::FeatureCurvesTexture& texture) {
+    if (!gl_) return std::nullopt;
+    return timed(gl_->upload_feature_curves(texture), fetex::Sampler::FeatureCurvesArea);
+}
+
 std::optional<fetex::SamplerCost> SamplerTimer::cost(const measure::FieldPicture& picture) {
     if (!gl_) return std::nullopt;
     const Rgba &below = picture.below(), &above = picture.above();

@@ -33,6 +33,8 @@ class SamplerTimer {
     /// Through the hardware's filter where a probe finds that good enough.
     std::optional<fetex::SamplerCost> cost(const fetex::PinchmapTexture& texture);
     std::optional<fetex::SamplerCost> area_cost(const fetex::PinchmapTexture& texture);
+    std::optional<fetex::SamplerCost> cost(const fetex::FeatureCurvesTexture& texture);
+    std::optional<fetex::SamplerCost> area_cost(const fetex::FeatureCurvesTexture& texture);
     std::optional<fetex::SamplerCost> cost(const measure::FieldPicture& field);
     /// Of the bitmap itself: 1 but for noise.
     std::optional<fetex::SamplerCost> cost_of_bitmap();

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "cli/bench/compile_time.h"
+#include "cli/bench/curve_sweep.h"
 #include "cli/bilevel_budget.h"
 #include "cli/compile_bilevel.h"
+#include "cli/compile_curves.h"
 #include "cli/io.h"
 #include "compiler/error_budget.h"
 #include "compiler/measure/classifier.h"
@@ -88,8 +90,9 @@ template <class Texture> void show(Rival& rival, Texture made) {
 /// The sweep of one drawing.
 class Sweep {
   public:
-    Sweep(std::string path, const SweepOptions& options, SamplerTimer* timer, const ProgressSink& progress)
-        : path_(std::move(path)), options_(options), timer_(timer), progress_(progress) {}
+    Sweep(std::string path, const std::vector<std::uint8_t>& bytes, const SweepOptions& options, SamplerTimer* timer,
+          const ProgressSink& progress)
+        : path_(std::move(path)), options_(options), timer_(timer), progress_(progress), bytes_(bytes) {}
 
     Result<BenchFile> run(std::vector<Diagnostic>& diagnostics);
 
@@ -117,7 +120,7 @@ class Sweep {
     const SweepOptions& options_;
     SamplerTimer* timer_;
     const ProgressSink& progress_;
-    std::vector<std::uint8_t> bytes_;
+    const std::vector<std::uint8_t>& bytes_;
     Scene scene_;
     std::unique_ptr<measure::Truth> truth_;
     std::optional<measure::Measurer> measurer_;
@@ -134,9 +137,6 @@ SceneOptions Sweep::scene_options() const {
 }
 
 Status Sweep::load(std::vector<Diagnostic>& diagnostics) {
-    auto bytes = read_input(path_, SvgLimits{}.bytes);
-    if (!bytes) return bytes.error();
-    bytes_ = std::move(bytes).value();
     auto loaded = scene_of_bytes(bytes_, scene_options(), largest_size(), options_.threads, diagnostics);
     if (!loaded) return loaded.error();
     scene_ = std::move(loaded).value().scene;
@@ -387,7 +387,21 @@ Result<BenchFile> Sweep::run(std::vector<Diagnostic>& diagnostics) {
 Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& options, SamplerTimer* timer,
                              const ProgressSink& progress, std::vector<Diagnostic>& diagnostics) {
     assert(!options.sizes.empty() && !options.outputs.empty());
-    return Sweep(path, options, timer, progress).run(diagnostics);
+    const auto bytes = read_input(path, SvgLimits{}.bytes);
+    if (!bytes) return bytes.error();
+    BenchFile out;
+    const bool network = is_network(bytes.value());
+    if (!network) {
+        auto swept = Sweep(path, bytes.value(), options, timer, progress).run(diagnostics);
+        if (!swept) return swept;
+        out = std::move(swept).value();
+    }
+    out.path = path;
+    if (!network && !options.curves) return out;
+    std::vector<Diagnostic> said; // of a drawing: heard already
+    const Status status = sweep_curves(bytes.value(), options, timer, progress, network ? diagnostics : said, out);
+    if (!status) return status.error();
+    return out;
 }
 
 } // namespace fetexc::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// One drawing at every size: the texture, and what a user would pick instead, in as many bytes.
+/// One drawing, or a network's curves, at every size: the texture, and what a user would pick instead, in as many
+/// bytes.
 #pragma once
 
 #include <string>
@@ -21,10 +22,11 @@ struct SweepOptions {
     bool equal_bitmap = true;
     /// Among what has the FBT's bytes: bi-level, silhouette-map textures, pinchmaps.
     bool bilevel = true, silmap = true, pinchmap = true;
+    bool curves = true; ///< what is made of curves, too
 };
 
 /// Diagnostics of the front end are appended. timer: null when nothing is timed. Errors of load_scene, compile_fbt,
-/// compile_bilevel, compile_silmap, compile_pinchmap and measure.
+/// compile_bilevel, compile_silmap, compile_pinchmap, measure and sweep_curves.
 Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& options, SamplerTimer* timer,
                              const ProgressSink& progress, std::vector<Diagnostic>& diagnostics);
 

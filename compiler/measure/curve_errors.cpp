@@ -23,13 +23,13 @@ struct SpreadSample {
     TexturePoint place;
 };
 
-/// value(p): nothing where the figure says nothing. In the order of rows of pixels.
+/// value(number of the pixel, point): nothing where the figure says nothing. In the order of rows of pixels.
 template <class Value> Spread spread_of(GridSize pixels, unsigned threads, const Value& value) {
     std::vector<std::vector<SpreadSample>> rows(pixels.height);
     parallel_for(pixels.height, threads, [&](std::size_t row) {
         for (std::uint32_t i = 0; i < pixels.width; ++i) {
             const TexturePoint p = sample_point(pixels, i, static_cast<std::uint32_t>(row));
-            if (const std::optional<double> v = value(p)) rows[row].push_back({*v, p});
+            if (const std::optional<double> v = value(row * pixels.width + i, p)) rows[row].push_back({*v, p});
         }
     });
     Spread out;
@@ -55,6 +55,21 @@ std::array<double, 3> normal_of(const Rgba& c) { return {2 * c.r - 1, 2 * c.g - 
 double angle_between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
     return kDegrees * std::atan2(std::hypot(x, y, z), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+/// The points' colours as they are, the means as they are seen.
+PictureSamples samples_at(const Picture& picture, GridSize pixels, const CurveMeasureOptions& options) {
+    PictureSamples out = samples_of(picture, pixels, options.threads, PixelMeans::Smooth);
+    if (options.seen)
+        out.means = box_means(SeenPicture(picture, options.seen), pixels, options.threads, PixelMeans::Smooth);
+    return out;
+}
+
+PictureSamples seen(PictureSamples samples, const CurveMeasureOptions& options) {
+    if (!options.seen) return samples;
+    for (Rgba& c : samples.points)
+        c = options.seen(c);
+    return samples;
 }
 
 class DistanceErrors {
@@ -103,26 +118,44 @@ double texel_side(const CurveTruth& truth, const Picture& picture) {
     return std::max(1.0 / n.width, truth.height() / n.height);
 }
 
-CurveErrors curve_errors(const CurveTruth& truth, const Picture& picture, const fetex::FeatureCurvesTexture* texture,
-                         GridSize pixels, const CurveMeasureOptions& options) {
+CurveMeasurer::CurveMeasurer(const CurveTruth& truth, const std::vector<GridSize>& sizes, CurveMeasureOptions options)
+    : truth_(truth), options_(std::move(options)) {
+    for (const GridSize pixels : sizes)
+        samples_.push_back(samples_at(truth, pixels, options_));
+}
+
+CurveErrors CurveMeasurer::at_size(const PictureSamples& truth, const Picture& picture,
+                                   const fetex::FeatureCurvesTexture* texture) const {
+    const GridSize pixels = truth.pixels;
+    const PictureSamples found = samples_at(picture, pixels, options_);
     CurveErrors out;
     out.pixels = pixels, out.pixels_per_texel = static_cast<double>(pixels.width) / picture.texels().width;
-    out.colors = options.seen ? difference(SeenPicture(truth, options.seen), SeenPicture(picture, options.seen), pixels,
-                                           options.threads, PixelMeans::Smooth)
-                              : difference(truth, picture, pixels, options.threads, PixelMeans::Smooth);
-    if (truth.kind() == fetex::FeatureKind::Normal)
-        out.angle = spread_of(pixels, options.threads, [&](TexturePoint p) -> std::optional<double> {
-            return angle_between(normal_of(truth.at(p)), normal_of(picture.at(p)));
+    out.colors = difference(seen(truth, options_), seen(found, options_));
+    if (truth_.kind() == fetex::FeatureKind::Normal)
+        out.angle = spread_of(pixels, options_.threads, [&](std::size_t k, TexturePoint) -> std::optional<double> {
+            return angle_between(normal_of(truth.points[k]), normal_of(found.points[k]));
         });
     if (texture == nullptr) return out;
-    const double step = std::max(1.0 / pixels.width, truth.height() / pixels.height);
-    const auto shown = curves_of(*texture, truth.height());
-    CurveDistances moved =
-        curve_distances(truth, shown, step, options.reach * texel_side(truth, picture), options.threads);
+    const double step = std::max(1.0 / pixels.width, truth_.height() / pixels.height);
+    CurveDistances moved = curve_distances(truth_, curves_of(*texture, truth_.height()), step,
+                                           options_.reach * texel_side(truth_, picture), options_.threads);
     out.to_picture = moved.to_picture, out.to_truth = moved.to_truth;
-    const DistanceErrors errors(truth, *texture);
-    out.distance = spread_of(pixels, options.threads, [&](TexturePoint p) { return errors.at(p); });
+    const DistanceErrors errors(truth_, *texture);
+    out.distance = spread_of(pixels, options_.threads, [&](std::size_t, TexturePoint p) { return errors.at(p); });
     return out;
+}
+
+std::vector<CurveErrors> CurveMeasurer::measure(const Picture& picture,
+                                                const fetex::FeatureCurvesTexture* texture) const {
+    std::vector<CurveErrors> out;
+    for (const PictureSamples& truth : samples_)
+        out.push_back(at_size(truth, picture, texture));
+    return out;
+}
+
+CurveErrors curve_errors(const CurveTruth& truth, const Picture& picture, const fetex::FeatureCurvesTexture* texture,
+                         GridSize pixels, const CurveMeasureOptions& options) {
+    return CurveMeasurer(truth, {pixels}, options).measure(picture, texture).front();
 }
 
 } // namespace fetexc::measure

@@ -49,7 +49,26 @@ struct CurveMeasureOptions {
 /// Larger side of the picture's texels, width units.
 double texel_side(const CurveTruth& truth, const Picture& picture);
 
-/// texture: what the picture shows, if it is one with feature curves; validated. pixels: 1 … 16384 on each side.
+/// Several pictures against one truth, whose colours are found once. Const members are thread-safe.
+class CurveMeasurer {
+  public:
+    /// The truth must outlive it. sizes: output sizes, 1 … 16384 on each side.
+    CurveMeasurer(const CurveTruth& truth, const std::vector<GridSize>& sizes, CurveMeasureOptions options);
+
+    /// One entry for each size. texture: what the picture shows, if it is one with feature curves; validated.
+    [[nodiscard]] std::vector<CurveErrors> measure(const Picture& picture,
+                                                   const fetex::FeatureCurvesTexture* texture) const;
+
+  private:
+    [[nodiscard]] CurveErrors at_size(const PictureSamples& truth, const Picture& picture,
+                                      const fetex::FeatureCurvesTexture* texture) const;
+
+    const CurveTruth& truth_;
+    CurveMeasureOptions options_;
+    std::vector<PictureSamples> samples_; ///< of each size; the means as they are seen
+};
+
+/// Of one picture at one size.
 CurveErrors curve_errors(const CurveTruth& truth, const Picture& picture, const fetex::FeatureCurvesTexture* texture,
                          GridSize pixels, const CurveMeasureOptions& options);
 

@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kOneStep = 1.0 / 255 + budget::kColorNoise; ///< of eight bits
 
-struct RowDifference {
-    std::uint64_t different = 0;
-    double max = 0, sum = 0;
-    TexturePoint place;
-};
-
 constexpr unsigned kPoints = 4; ///< along a side
 
 Rgba point_mean(const Picture& picture, const PixelArea& area) {
@@ -64,31 +58,40 @@ double mean_square_error(const std::vector<Rgba>& a, const std::vector<Rgba>& b)
     return a.empty() ? 0 : sum / static_cast<double>(a.size());
 }
 
-PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads, PixelMeans means) {
-    std::vector<RowDifference> rows(pixels.height);
+PictureSamples samples_of(const Picture& picture, GridSize pixels, unsigned threads, PixelMeans means) {
+    PictureSamples out{pixels, std::vector<Rgba>(std::size_t{pixels.width} * pixels.height), {}};
     parallel_for(pixels.height, threads, [&](std::size_t j) {
-        RowDifference& row = rows[j];
-        for (std::uint32_t i = 0; i < pixels.width; ++i) {
-            const TexturePoint p = sample_point(pixels, i, static_cast<std::uint32_t>(j));
-            const double found = contrast(a.at(p), b.at(p));
-            row.sum += found;
-            if (found > kOneStep) ++row.different;
-            if (found > row.max) row.max = found, row.place = p;
-        }
+        for (std::uint32_t i = 0; i < pixels.width; ++i)
+            out.points[j * pixels.width + i] = picture.at(sample_point(pixels, i, static_cast<std::uint32_t>(j)));
     });
+    out.means = box_means(picture, pixels, threads, means);
+    return out;
+}
+
+PictureDifference difference(const PictureSamples& a, const PictureSamples& b) {
+    assert(a.points.size() == b.points.size());
+    const GridSize pixels = a.pixels;
     PictureDifference total;
     total.pixels = pixels;
-    const double points = static_cast<double>(pixels.width) * pixels.height;
+    const auto points = static_cast<double>(a.points.size());
     std::uint64_t different = 0;
-    for (const RowDifference& row : rows) {
-        different += row.different;
-        total.mean += row.sum / points;
-        if (row.max > total.max) total.max = row.max, total.place = row.place;
+    for (std::uint32_t j = 0; j < pixels.height; ++j) {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < pixels.width; ++i) {
+            const std::size_t k = std::size_t{j} * pixels.width + i;
+            const double found = contrast(a.points[k], b.points[k]);
+            sum += found, different += found > kOneStep;
+            if (found > total.max) total.max = found, total.place = sample_point(pixels, i, j);
+        }
+        total.mean += sum / points;
     }
     total.different_ppm = static_cast<double>(different) * 1e6 / points;
-    total.psnr =
-        decibels(mean_square_error(box_means(a, pixels, threads, means), box_means(b, pixels, threads, means)));
+    total.psnr = decibels(mean_square_error(a.means, b.means));
     return total;
+}
+
+PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads, PixelMeans means) {
+    return difference(samples_of(a, pixels, threads, means), samples_of(b, pixels, threads, means));
 }
 
 } // namespace fetexc::measure

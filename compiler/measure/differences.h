@@ -28,6 +28,16 @@ enum class PixelMeans : std::uint8_t {
 PictureDifference difference(const Picture& a, const Picture& b, GridSize pixels, unsigned threads,
                              PixelMeans means = PixelMeans::Jumps);
 
+/// What difference() takes of a picture at an output size: several may be held against one.
+struct PictureSamples {
+    GridSize pixels;
+    std::vector<Rgba> points; ///< at the sample points, row-major
+    std::vector<Rgba> means;  ///< box_means
+};
+PictureSamples samples_of(const Picture& picture, GridSize pixels, unsigned threads, PixelMeans means);
+/// Precondition: of the same size.
+PictureDifference difference(const PictureSamples& a, const PictureSamples& b);
+
 /// Box means of all pixels, row-major. Edges that neither a pixel's corners nor its centre betray are missed.
 std::vector<Rgba> box_means(const Picture& picture, GridSize pixels, unsigned threads,
                             PixelMeans means = PixelMeans::Jumps);

@@ -9,16 +9,17 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ART = HERE.parent / "art"
-SETS = {"art": ART, "two_colors": ART / "alternatives"}  # baseline -> folder of drawings
+# Baseline -> folder and names of drawings or networks.
+SETS = {"art": (ART, "*.svg"), "two_colors": (ART / "alternatives", "*.svg"), "networks": (ART / "network", "*.json")}
 SIZES, OUTPUT = "16,64", "128"
 KEYS = 4  # columns that say which texture a line is about
 TIME_LIMIT = 300  # seconds for one set
 SHOWN = 20  # differences
 
 
-def figures(fetexc, folder):
-    """The CSV of a folder's drawings, as text."""
-    drawings = sorted(path.name for path in folder.glob("*.svg"))
+def figures(fetexc, folder, names):
+    """The CSV of a folder's drawings or networks, as text."""
+    drawings = sorted(path.name for path in folder.glob(names))
     command = [
         fetexc, "bench", *drawings, "--size", SIZES, "--output-size", OUTPUT, "--no-timing", "--no-equal-bitmap", "-q",
         "--csv", "-",
@@ -58,10 +59,10 @@ def main():
     parser.add_argument("--update", action="store_true", help="rewrite the baselines; say in the commit why figures changed")
     options = parser.parse_args()
     passed = failed = 0
-    for name, folder in SETS.items():
+    for name, (folder, names) in SETS.items():
         baseline = HERE / f"{name}.csv"
         expected = baseline.read_text(encoding="utf-8") if baseline.exists() else ""
-        found = figures(options.fetexc.resolve(), folder)
+        found = figures(options.fetexc.resolve(), folder, names)
         problems = list(differences(expected, found)) if expected else ["no baseline"]
         if options.update:
             baseline.write_text(found, encoding="utf-8")
