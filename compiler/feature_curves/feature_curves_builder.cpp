@@ -210,7 +210,8 @@ Result<FeatureCurvesBuild> compile_feature_curves_within(const Network& network,
 }
 
 Result<double> feature_curves_move(const Network& network, const FeatureCurvesOptions& options) {
-    const auto curves = snapped(network, options);
+    std::uint64_t overlaid = 0;
+    const auto curves = snapped(network, options, profiles_for(network, options), overlaid);
     if (!curves) return curves.error();
     double farthest = 0;
     for (const FeatureMove& m : curves.value().moves)
@@ -219,7 +220,8 @@ Result<double> feature_curves_move(const Network& network, const FeatureCurvesOp
 }
 
 std::uint64_t feature_curves_bytes(const Network& network, const FeatureCurvesOptions& options) {
-    return bytes_at(options.size, options, makes_linear(network, options));
+    const TextureProfiles profiles = profiles_for(network, options);
+    return bytes_at(options.size, options, makes_linear(network, options), profiles.profiles());
 }
 
 } // namespace fetexc
