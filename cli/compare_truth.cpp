@@ -61,14 +61,26 @@ Result<CurvesCommandOptions> curve_options(const ComparedFile& file, const Compa
     return how;
 }
 
-/// Floats, as tables have them, of the same profile.
-bool has_profile(const fetex::FeatureCurvesTexture& texture, const FeatureProfile& profile, double scale) {
-    const double step =
-        static_cast<double>(texture.distance_limit) / static_cast<double>(texture.profile.size() - 1) / scale;
-    for (std::size_t k = 0; k < texture.profile.size(); ++k) {
+/// Floats, as tables have them: the texture's profile with that number is this one.
+bool has_profile(const fetex::FeatureCurvesTexture& texture, std::size_t number, const FeatureProfile& profile,
+                 double scale) {
+    const std::size_t entries = fetex::feature_profile_entries(texture);
+    const double step = static_cast<double>(texture.distance_limit) / static_cast<double>(entries - 1) / scale;
+    for (std::size_t k = 0; k < entries; ++k) {
         const double d = static_cast<double>(k) * step;
-        if (texture.profile[k].slope != static_cast<float>(profile_slope(profile, d)) ||
-            texture.profile[k].blend != static_cast<float>(profile_blend(profile, d)))
+        const fetex::FeatureProfileEntry& e = texture.profile[number * entries + k];
+        if (e.slope != static_cast<float>(profile_slope(profile, d)) ||
+            e.blend != static_cast<float>(profile_blend(profile, d)))
+            return false;
+    }
+    return true;
+}
+
+/// Each of the texture's profiles is one that the truth has.
+bool has_profiles_of(const fetex::FeatureCurvesTexture& texture, const CurveProfiles& truth, double scale) {
+    for (std::size_t n = 0; n < texture.profiles; ++n) {
+        if (std::ranges::none_of(truth.profiles,
+                                 [&](const FeatureProfile& p) { return has_profile(texture, n, p, scale); }))
             return false;
     }
     return true;
@@ -87,8 +99,7 @@ std::vector<Diagnostic> other_truth(const ComparedPicture& other, const Network&
         say(base_hash.empty() ? "the texture was made with a base map, the truth has none (--base)"
                               : "the texture was made with another base map than the truth's, or with none");
     const double scale = texels_per_unit(network, {texture->width, texture->height});
-    if (std::ranges::none_of(profiles.profiles,
-                             [&](const FeatureProfile& p) { return has_profile(*texture, p, scale); }))
+    if (!has_profiles_of(*texture, profiles, scale))
         say("the texture was made with another profile than the truth's (--profile, --profile-width)");
     return out;
 }
