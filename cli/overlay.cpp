@@ -130,7 +130,10 @@ class PinchmapOverlay {
 
     void draw() {
         if (frame_.room() >= kRoomForSides) frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_sides(i, j); });
-        frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_line(i, j); });
+        // All halos first, so that none lies over another cluster's line.
+        const double thickness = frame_.thickness();
+        frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_line(i, j, 2 * thickness, kHalo); });
+        frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_line(i, j, thickness, kBoundary); });
         frame_.each(1, [&](std::uint32_t i, std::uint32_t j) { draw_arrow(i, j); });
     }
 
@@ -140,8 +143,8 @@ class PinchmapOverlay {
         if (j < texture_.height) pen_.dashed(frame_.at(i, j), frame_.at(i, j + 1.0), 1, kSide);
     }
 
-    /// The discontinuity in a cluster: where k − gamma, bilinear, is 0.
-    void draw_line(std::uint32_t i, std::uint32_t j) {
+    /// The discontinuity in a cluster: where k − gamma, bilinear, is 0; through squares small enough to be straight in.
+    void draw_line(std::uint32_t i, std::uint32_t j, double thickness, const Ink& ink) {
         if (i >= texture_.width || j >= texture_.height) return;
         const auto side = [&](std::uint32_t di, std::uint32_t dj) {
             const fetex::PinchmapTexel t = fetex::pinchmap_texel(texture_, i + di, j + dj);
@@ -149,27 +152,41 @@ class PinchmapOverlay {
         };
         const std::array<double, 4> f{side(0, 0), side(1, 0), side(0, 1), side(1, 1)};
         if ((f[0] > 0) == (f[1] > 0) && (f[0] > 0) == (f[2] > 0) && (f[0] > 0) == (f[3] > 0)) return;
-        constexpr int kSteps = 16;
-        for (int s = 0; s < kSteps; ++s)
-            draw_piece(i, j, f, s / double{kSteps}, (s + 1) / double{kSteps});
+        constexpr int kMostSteps = 16;
+        const int steps = std::clamp(static_cast<int>(frame_.room() / 4), 1, kMostSteps);
+        for (int s = 0; s < steps * steps; ++s) {
+            const Square square{static_cast<double>(s % steps) / steps, static_cast<double>(s / steps) / steps,
+                                1.0 / steps};
+            draw_square(i, j, f, square, [&](Pixel p, Pixel q) { pen_.line(p, q, thickness, ink); });
+        }
     }
 
-    /// From one upright line of the cluster to the next, and from one level line to the next where it is steep.
-    void draw_piece(std::uint32_t i, std::uint32_t j, const std::array<double, 4>& f, double a, double b) {
-        const auto crossing = [](double from, double to) {
-            return from != to && (from > 0) != (to > 0) ? from / (from - to) : -1;
+    /// Of a cluster.
+    struct Square {
+        double x = 0, y = 0, side = 1;
+    };
+
+    /// From where the line comes in to where it goes out; of two lines each from the side before to the next.
+    template <class Draw>
+    void draw_square(std::uint32_t i, std::uint32_t j, const std::array<double, 4>& f, const Square& s,
+                     const Draw& draw) const {
+        const auto value = [&](double x, double y) {
+            return (f[0] * (1 - x) + f[1] * x) * (1 - y) + (f[2] * (1 - x) + f[3] * x) * y;
         };
-        const auto mix = [](double p, double q, double t) { return p + (q - p) * t; };
-        const double ya = crossing(mix(f[0], f[1], a), mix(f[2], f[3], a)),
-                     yb = crossing(mix(f[0], f[1], b), mix(f[2], f[3], b)),
-                     xa = crossing(mix(f[0], f[2], a), mix(f[1], f[3], a)),
-                     xb = crossing(mix(f[0], f[2], b), mix(f[1], f[3], b));
-        const auto line = [&](Pixel p, Pixel q) {
-            pen_.line(p, q, 2 * frame_.thickness(), kHalo);
-            pen_.line(p, q, frame_.thickness(), kBoundary);
-        };
-        if (ya >= 0 && yb >= 0) line(frame_.at(i + a, j + ya), frame_.at(i + b, j + yb));
-        if (xa >= 0 && xb >= 0) line(frame_.at(i + xa, j + a), frame_.at(i + xb, j + b));
+        const std::array corners{std::array{s.x, s.y}, std::array{s.x + s.side, s.y},
+                                 std::array{s.x + s.side, s.y + s.side}, std::array{s.x, s.y + s.side}};
+        std::array<Pixel, 4> found;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto [ax, ay] = corners[k];
+            const auto [bx, by] = corners[(k + 1) % 4];
+            const double from = value(ax, ay), to = value(bx, by);
+            if ((from > 0) == (to > 0)) continue;
+            const double t = from / (from - to);
+            found[count++] = frame_.at(i + ax + (bx - ax) * t, j + ay + (by - ay) * t);
+        }
+        for (std::size_t k = 0; k + 1 < count; k += 2)
+            draw(found[k], found[k + 1]);
     }
 
     /// Of an active texel: which way it pinches, as long as its strength lets.
