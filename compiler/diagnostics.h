@@ -109,7 +109,7 @@ inline constexpr int kSilmapCellsCrowded = 5121; ///< cells of a silhouette map 
 inline constexpr int kSilmapPartsLost = 5122;    ///< parts of the picture that no texel of a silhouette-map texture has: thinner than its texels (count)
 inline constexpr int kPinchmapPartsLost = 5131;    ///< parts of the drawing that a pinchmap can't hold: too thin or too crowded for its clusters, they are blurred (area)
 inline constexpr int kPinchmapCrosses = 5132;      ///< crossings of edges that a pinchmap blurs (count)
-inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges between colours that lie in one zone of a pinchmap: they are blurred (count)
+inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges that a pinchmap blurs: between colours of one zone, or soft in the image (count)
 
 // Feature curves (owner: compiler/feature_curves)
 inline constexpr int kFeatureMoved = 5141;   ///< texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)

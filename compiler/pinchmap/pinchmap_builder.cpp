@@ -11,7 +11,6 @@
 #include "compiler/pinchmap/feature_zones.h"
 #include "compiler/pinchmap/map_fit.h"
 #include "compiler/pinchmap/pinchmap_sizes.h"
-#include "compiler/pinchmap/soft_edges.h"
 #include "compiler/pinchmap/two_zones.h"
 #include "formats/validate.h"
 
@@ -86,6 +85,14 @@ void warn_of_blurred_edges(const TwoZones& zones, PinchmapBuild& build) {
              number_text(zones.blurred_part * 100) +
              " % of all by length and contrast; the one that shows most is at " +
              place_text(zones.blurred_u, zones.blurred_v));
+}
+
+void warn_of_soft_edges(const SoftEdges& soft, PinchmapBuild& build) {
+    if (soft.texels == 0) return;
+    warn(build, diag::kPinchmapEdgesBlurred,
+         "edges are blurred at " + std::to_string(soft.texels) + " of " + std::to_string(build.stats.active) +
+             " places, where the image is soft across them; the softest, at " + place_text(soft.u, soft.v) +
+             ", takes " + number_text(soft.widest) + " pixels or more");
 }
 
 std::vector<PinchmapTexel> map_of(const Solver& solver, const Silhouette& silhouette, const PinchmapOptions& options,
@@ -185,9 +192,12 @@ Result<PinchmapBuild> compile_pinchmap(const PinchedImage& image, const Pinchmap
     const Silhouette& silhouette = zones.value().silhouette;
     PinchmapBuild out;
     std::vector<PinchmapTexel> map = map_of(*solver.value(), silhouette, options, out);
-    out.stats.soft_texels = image.features.runs.empty()
-                                ? soften(image.image, silhouette, width, height, map)
-                                : taper(zones.value().closing, image.features, width, height, map);
+    const std::vector<PinchmapTexel> sharp = map;
+    out.stats.soft_edges = soften(image.image, silhouette, width, height, map);
+    warn_of_soft_edges(out.stats.soft_edges, out);
+    if (!image.features.runs.empty()) taper(zones.value().closing, image.features, width, height, map);
+    for (std::size_t k = 0; k < map.size(); ++k)
+        out.stats.soft_texels += map[k] == sharp[k] ? 0 : 1;
     out.texture = texture_of(map, options);
     finish(silhouette, image_painter(image.image, silhouette, grid_of(options)), options, progress, out);
     return out;

@@ -11,6 +11,7 @@
 #include "compiler/pinchmap/gamma_fit.h"
 #include "compiler/pinchmap/lost_edges.h"
 #include "compiler/pinchmap/signal_fit.h"
+#include "compiler/pinchmap/soft_edges.h"
 #include "compiler/pinchmap/zone_mask.h"
 #include "compiler/raster/feature_scene.h"
 #include "formats/pinchmap.h"
@@ -34,11 +35,11 @@ struct PinchmapStats {
     std::uint64_t edges = 0;         ///< of the outline
     std::uint64_t edges_blurred = 0; ///< visible, between colours of one zone (W5133)
     MaskMoves zones;
-    std::uint64_t active = 0;  ///< map texels where a discontinuity passes
-    std::uint64_t crosses = 0; ///< of them, where two cross: nothing is pinched (W5132)
-    LostEdges lost_edges;      ///< where edges are blurred for want of clusters (W5131)
-    std::uint64_t soft_texels =
-        0; ///< of them, where the image's transition is soft, or a feature ends: strength below 1
+    std::uint64_t active = 0;      ///< map texels where a discontinuity passes
+    std::uint64_t crosses = 0;     ///< of them, where two cross: nothing is pinched (W5132)
+    LostEdges lost_edges;          ///< where edges are blurred for want of clusters (W5131)
+    SoftEdges soft_edges;          ///< where the image's transition is soft (W5133)
+    std::uint64_t soft_texels = 0; ///< of the active ones, those and where a feature ends: strength below 1
     GammaFit gamma;
     SignalFit signal;
     double unmendable = 0; ///< square clusters, about, that are wrong because of the zones

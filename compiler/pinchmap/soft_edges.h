@@ -11,10 +11,19 @@
 
 namespace fetexc {
 
-/// Scales the directions of active texels by strengths: 1 where the image's alpha goes from one side of the outline to
+struct SoftEdges {
+    std::uint64_t texels = 0; ///< with a strength below 1
+    double widest = 0;        ///< pixels from side to side around a texel, at most
+    double u = 0, v = 0;      ///< 0 … 1: where
+};
+
+/// Scales the directions of active texels by strengths: 1 where the image's colours go from one side of the outline to
 /// the other within 3 pixels, 0 from 6 on, evenly between. Between texels strengths are interpolated, so a
-/// discontinuity tapers (§6.2). Images whose alpha doesn't vary have none that is soft. Returns the texels below 1.
-std::uint64_t soften(const RasterImage& image, const Silhouette& silhouette, std::uint32_t width, std::uint32_t height,
-                     std::vector<fetex::PinchmapTexel>& map);
+/// discontinuity tapers (§6.2). Across the outline's pieces the way is how far colours range, in the direction in which
+/// they change fastest, over how fast they do; around a texel the mean of the pieces, by their contrast. (The paper
+/// asks whether alpha is far from 0 and 1; this asks any colours, at any contrast.) Where they don't change strengths
+/// stay.
+SoftEdges soften(const RasterImage& image, const Silhouette& silhouette, std::uint32_t width, std::uint32_t height,
+                 std::vector<fetex::PinchmapTexel>& map);
 
 } // namespace fetexc
