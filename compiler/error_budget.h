@@ -457,6 +457,13 @@ inline constexpr double kSignalResidual = 1e-7;
 /// Of a pixel that mixes two sides, where no other tells a sample's colour: ten times what draws neighbours
 /// together, a ten thousandth of a pixel that doesn't mix.
 inline constexpr double kSignalMixed = 1e-4;
+/// Of a point on the wrong side of a discontinuity: all of them, at most a tenth of a sample's, move it by less than a
+/// step of 8 bits for each quarter of the colours' range that the sides differ by; but what is read beyond an edge that
+/// the drawing hasn't looks like the drawing.
+inline constexpr double kSignalWrong = 1e-2;
+/// Of the mean weight of a sample: one that has less is read by parts of at most 0.45 = sqrt(0.2), about, so that it
+/// would move by more than twice what its neighbours are wrong by.
+inline constexpr double kSignalFew = 0.2;
 
 /// Of the fit of feature curves, relative to the largest entry of a step's matrix: what is added where it isn't
 /// positive definite, half the digits of a double.

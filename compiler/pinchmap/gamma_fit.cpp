@@ -110,13 +110,25 @@ GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vecto
     return out;
 }
 
+void settle_gamma(const GammaProblem& problem, std::vector<PinchmapTexel>& map, GammaFit& fit) {
+    const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
+    const PinchLevels pinch(map, problem.format);
+    const Scan scan(problem, outline, active_texels(map), kPolishLines);
+    std::vector<std::uint16_t> stored = pinch.stored(map);
+    FitTrace trace;
+    fit.tried += fit_stored(scan.cells, stored, {pinch.levels()}, {kSweeps, 0}, trace);
+    for (const std::uint32_t t : scan.cells.texels())
+        map[t].gamma = pinch.gamma(stored[t]);
+    fit.wrong = wrong_part(problem, map, kVerifyLines);
+}
+
 void search_gamma(const GammaProblem& problem, std::uint32_t rounds, std::vector<PinchmapTexel>& map, GammaFit& fit) {
     const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
     const PinchLevels pinch(map, problem.format);
     const Scan scan(problem, outline, active_texels(map), kPolishLines);
     std::vector<std::uint16_t> stored = pinch.stored(map);
     FitTrace trace;
-    fit.tried += search_stored(scan.cells, pinch.levels(), rounds, stored, trace);
+    fit.tried += search_stored(scan.cells, pinch.levels(), rounds, problem.threads, stored, trace);
     for (const std::uint32_t t : scan.cells.texels())
         map[t].gamma = pinch.gamma(stored[t]);
     for (const double wrong : trace)
@@ -155,15 +167,34 @@ std::vector<SideCosts> side_costs(const GammaProblem& problem, std::span<const P
     return out;
 }
 
-std::vector<double> wrong_around(const GammaProblem& problem, std::span<const PinchmapTexel> map) {
+std::vector<double> wrong_in_clusters(const GammaProblem& problem, std::span<const PinchmapTexel> map) {
     const std::vector<OutlineSegment> outline = outline_in_texels(problem.silhouette, problem.width, problem.height);
     const Scan scan(problem, outline, active_texels(map), kFitLines);
     const std::vector<float> values = PinchLevels(map, problem.format).values(map);
-    std::vector<double> out(map.size(), 0);
+    std::vector<double> out(std::size_t{problem.width} * problem.height);
+    // Those without a cell lie on one side as a whole, of the drawing and of the map.
+    for (std::uint32_t j = 0; j < problem.height; ++j) {
+        for (std::uint32_t i = 0; i < problem.width; ++i) {
+            const bool above = map[std::size_t{j} * (problem.width + 1) + i].k > 0;
+            out[std::size_t{j} * problem.width + i] = above != scan.outline_scan.above(i + 0.5, j + 0.5) ? 1 : 0;
+        }
+    }
     for (const Cell& c : scan.cells.cells()) {
-        const double area = scan.cells.wrong_area_in(values, c);
-        for (const std::uint32_t texel : scan.cells.corners(c))
-            out[texel] += area;
+        if (c.column == 0 || c.row == 0 || c.column > problem.width || c.row > problem.height) continue; // no area
+        out[std::size_t{c.row - 1} * problem.width + c.column - 1] = scan.cells.wrong_area_in(values, c);
+    }
+    return out;
+}
+
+std::vector<double> wrong_around(const GammaProblem& problem, std::span<const PinchmapTexel> map) {
+    const std::vector<double> wrong = wrong_in_clusters(problem, map);
+    std::vector<double> out(map.size(), 0);
+    for (std::uint32_t j = 0; j < problem.height; ++j) {
+        for (std::uint32_t i = 0; i < problem.width; ++i) {
+            const std::size_t nw = std::size_t{j} * (problem.width + 1) + i, sw = nw + problem.width + 1;
+            for (const std::size_t texel : {nw, nw + 1, sw, sw + 1})
+                out[texel] += wrong[std::size_t{j} * problem.width + i];
+        }
     }
     return out;
 }

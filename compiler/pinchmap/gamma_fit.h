@@ -53,6 +53,9 @@ struct GammaFit {
 /// discontinuity lies on the outline, then number by number to the least wrong area.
 GammaFit fit_gamma(const Solver& solver, const GammaProblem& problem, std::vector<fetex::PinchmapTexel>& map);
 
+/// Number by number from the γ that the map has. fit: goes on.
+void settle_gamma(const GammaProblem& problem, std::vector<fetex::PinchmapTexel>& map, GammaFit& fit);
+
 /// Then out of the local minimum: so many of gamma_search.h's rounds a texel. fit: of fit_gamma, goes on.
 void search_gamma(const GammaProblem& problem, std::uint32_t rounds, std::vector<fetex::PinchmapTexel>& map,
                   GammaFit& fit);
@@ -68,6 +71,9 @@ double wrong_part(const GammaProblem& problem, std::span<const fetex::PinchmapTe
 /// above 0 there instead of on the side where it is, other texels as they are. Texels whose e no outline comes near:
 /// far.
 std::vector<SideCosts> side_costs(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map, double far);
+
+/// Of each cluster, row by row, the part of it on the wrong side.
+std::vector<double> wrong_in_clusters(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map);
 
 /// Of each map texel, the square clusters on the wrong side in the clusters around it.
 std::vector<double> wrong_around(const GammaProblem& problem, std::span<const fetex::PinchmapTexel> map);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <random>
+#include <utility>
 
 #include "compiler/error_budget.h"
+#include "compiler/parallel.h"
 
 namespace fetexc {
 namespace {
@@ -15,29 +18,48 @@ constexpr std::uint32_t kFinest = 1024;          ///< which are no less than suc
 constexpr std::uint32_t kFartherBy = 12;         ///< a perturbation is at most so large a part of all steps
 constexpr std::uint32_t kPatch = 2, kAround = 1; ///< texels: perturbed; fitted again on every side of them
 
+/// The numbers as they are, of all texels.
+struct State {
+    State(const ThresholdCells& of, const ValueLevels& in, std::vector<std::uint16_t>& numbers)
+        : cells(of), levels(in), grain(std::max(in.grain, static_cast<int>(in.steps / kFinest))), stored(numbers),
+          values(numbers.size()), is_free(numbers.size(), 0) {
+        for (const std::uint32_t t : cells.texels())
+            is_free[t] = 1;
+        for (std::size_t k = 0; k < stored.size(); ++k)
+            values[k] = levels.value(k, stored[k]);
+        for (const Cell& c : cells.cells())
+            areas.push_back(cells.wrong_area_in(values, c));
+    }
+
+    [[nodiscard]] double wrong_area() const { return std::accumulate(areas.begin(), areas.end(), 0.0); }
+
+    const ThresholdCells& cells;
+    const ValueLevels& levels;
+    int grain;
+    std::vector<std::uint16_t>& stored;
+    std::vector<float> values;
+    std::vector<std::uint8_t> is_free;
+    std::vector<double> areas;
+};
+
+/// Of some texels of rows next to each other.
 class Search {
   public:
-    Search(const ThresholdCells& cells, const ValueLevels& levels, std::vector<std::uint16_t>& stored)
-        : cells_(cells), levels_(levels), grain_(std::max(levels.grain, static_cast<int>(levels.steps / kFinest))),
-          stored_(stored), values_(stored.size()), is_free_(stored.size(), 0) {
-        for (const std::uint32_t t : cells.texels())
-            is_free_[t] = 1;
-        for (std::size_t k = 0; k < stored_.size(); ++k)
-            values_[k] = levels_.value(k, stored_[k]);
-        for (const Cell& c : cells.cells())
-            areas_.push_back(cells.wrong_area_in(values_, c));
+    Search(State& state, std::vector<std::uint32_t> places, std::uint64_t seed)
+        : cells_(state.cells), levels_(state.levels), grain_(state.grain), stored_(state.stored), values_(state.values),
+          is_free_(state.is_free), areas_(state.areas), places_(std::move(places)), random_(seed) {}
+
+    /// A round for each place, at random ones.
+    void rounds() {
+        for (std::size_t n = places_.size(); n > 0; --n)
+            round();
     }
 
-    [[nodiscard]] double wrong_area() const {
-        double sum = 0;
-        for (const double area : areas_)
-            sum += area;
-        return sum;
-    }
+    std::uint64_t tried = 0;
 
-    /// Somewhere.
+  private:
     void round() {
-        const std::uint32_t place = cells_.texels()[below(cells_.texels().size())];
+        const std::uint32_t place = places_[below(places_.size())];
         collect(place % cells_.width(), place / cells_.width());
         const double before = area_of_patch();
         if (before < budget::kPinchmapWorthARound) return;
@@ -49,9 +71,6 @@ class Search {
         if (!(refit(before) < before - budget::kWorthAByte)) restore();
     }
 
-    std::uint64_t tried = 0;
-
-  private:
     std::uint64_t below(std::uint64_t n) { return random_() % n; }
 
     [[nodiscard]] double area_in(std::uint32_t cell) const {
@@ -157,27 +176,47 @@ class Search {
     const ValueLevels& levels_;
     int grain_;
     std::vector<std::uint16_t>& stored_;
-    std::vector<float> values_;
-    std::vector<std::uint8_t> is_free_;
-    std::vector<double> areas_;
+    std::vector<float>& values_;
+    const std::vector<std::uint8_t>& is_free_;
+    std::vector<double>& areas_;
+    std::vector<std::uint32_t> places_;
     std::vector<std::uint32_t> core_, patch_, patch_cells_;
     std::vector<std::uint16_t> saved_;
     std::vector<double> saved_areas_;
-    std::mt19937_64 random_{1};
+    std::mt19937_64 random_;
 };
+
+/// Rows of texels in a band. A round reads and writes at most two rows before its place and three after it, so two
+/// bands with one between them share nothing.
+constexpr std::uint32_t kBandRows = 16;
+
+std::vector<Search> bands_of(State& state) {
+    std::vector<std::vector<std::uint32_t>> places((state.cells.height() + kBandRows - 1) / kBandRows);
+    for (const std::uint32_t t : state.cells.texels())
+        places[t / state.cells.width() / kBandRows].push_back(t);
+    std::vector<Search> out;
+    for (std::vector<std::uint32_t>& band : places)
+        out.emplace_back(state, std::move(band), out.size() + 1);
+    return out;
+}
 
 } // namespace
 
 std::uint64_t search_stored(const ThresholdCells& cells, const ValueLevels& levels, std::uint32_t rounds,
-                            std::vector<std::uint16_t>& stored, FitTrace& trace) {
+                            unsigned threads, std::vector<std::uint16_t>& stored, FitTrace& trace) {
     if (cells.texels().empty()) return 0;
-    Search search(cells, levels, stored);
+    State state(cells, levels, stored);
+    std::vector<Search> bands = bands_of(state);
     for (std::uint32_t k = 0; k < rounds; ++k) {
-        for (std::size_t n = cells.texels().size(); n > 0; --n)
-            search.round();
-        trace.push_back(search.wrong_area());
+        for (const std::size_t first : {0U, 1U})
+            parallel_for((bands.size() + 1 - first) / 2, threads,
+                         [&](std::size_t n) { bands[2 * n + first].rounds(); });
+        trace.push_back(state.wrong_area());
     }
-    return search.tried;
+    std::uint64_t tried = 0;
+    for (const Search& band : bands)
+        tried += band.tried;
+    return tried;
 }
 
 } // namespace fetexc

@@ -18,8 +18,8 @@ struct MapFit {
 };
 
 /// Zones by the corners' distances from the outline; if those leave much unmendable others too, searched by what each
-/// corner's side costs where discontinuities would run without zones. The map that has less of the drawing on the wrong
-/// side, its γ then searched on.
+/// corner's side costs where discontinuities would run without zones. At each place where they differ those that leave
+/// less of the drawing on the wrong side; γ then searched on.
 MapFit fit_map(const Solver& solver, const GammaProblem& problem);
 
 } // namespace fetexc

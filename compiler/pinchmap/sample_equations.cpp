@@ -77,6 +77,7 @@ class SampleSolver {
                 sides_[index(a, b)] = static_cast<signed char>(side(a, b));
         }
         first_guess();
+        top_up();
         each_pair([&](std::size_t k, std::size_t other, std::size_t which) {
             if (sides_[k] != sides_[other]) return;
             const double together = budget::kSignalTogether * mean_;
@@ -141,6 +142,18 @@ class SampleSolver {
             for (std::size_t c = 0; c < 4; ++c)
                 guess_[k][c] = sums[k][c] / counts[k];
             known[k] = 1;
+        }
+    }
+
+    /// A sample that points read little of would swing to wherever it evens out what the samples beside it can't hold:
+    /// what its weight lacks is given to the mean of what is read of it.
+    void top_up() {
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const double lack = budget::kSignalFew * mean_ - rows_[k].weights[0];
+            if (!(lack > 0)) continue;
+            rows_[k].weights[0] += lack;
+            for (std::size_t c = 0; c < 4; ++c)
+                rows_[k].colors[c] += lack * guess_[k][c];
         }
     }
 

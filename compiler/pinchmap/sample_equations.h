@@ -27,8 +27,9 @@ class SampleEquations {
     /// Those of other rows, which must be among these.
     void add(const SampleEquations& other);
 
-    /// By conjugate gradients, channel by channel. Samples on one side that are neighbours are drawn together a little:
-    /// it decides where nothing else does. side: of a sample.
+    /// By conjugate gradients, channel by channel. Samples that points read little of are drawn to the mean of what is
+    /// read of them, the more the less that is. Samples on one side that are neighbours are drawn together a little: it
+    /// decides where nothing else does. side: of a sample.
     [[nodiscard]] SolvedSamples solve(const std::function<int(std::uint32_t a, std::uint32_t b)>& side,
                                       unsigned threads) const;
 

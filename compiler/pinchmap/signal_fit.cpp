@@ -34,7 +34,8 @@ class SignalFitter {
     SignalFitter(const fetex::PinchmapTexture& t, const Silhouette& silhouette, const RowPainter& paint)
         : t_(t), paint_(paint), n_(signal_points(t.scale)), columns_(t.width * n_), rows_(t.height * n_),
           outline_(outline_in_texels(silhouette, columns_, rows_)), sides_(silhouette, outline_, columns_, rows_, 1),
-          active_(std::size_t{t.width} * t.height) {
+          active_(std::size_t{t.width} * t.height), holds_outline_(active_.size(), 0) {
+        mark_outline(sides_.rows(), true), mark_outline(sides_.columns(), false);
         for (std::uint32_t j = 0; j < t.height; ++j) {
             for (std::uint32_t i = 0; i < t.width; ++i)
                 active_[std::size_t{j} * t.width + i] = has_active(i, j) ? 1 : 0;
@@ -73,6 +74,18 @@ class SignalFitter {
     }
 
   private:
+    /// Clusters that the outline passes.
+    void mark_outline(const ScanLines& lines, bool level) {
+        for (std::uint32_t n = 0; n < lines.size(); ++n) {
+            for (const Crossing& c : lines.crossings(n)) {
+                if (!(c.at >= 0 && c.at < (level ? columns_ : rows_))) continue;
+                const std::uint32_t along = static_cast<std::uint32_t>(c.at) / n_, across = n / n_;
+                holds_outline_[level ? std::size_t{across} * t_.width + along
+                                     : std::size_t{along} * t_.width + across] = 1;
+            }
+        }
+    }
+
     [[nodiscard]] bool has_active(std::uint32_t i, std::uint32_t j) const {
         return fetex::pinchmap_texel(t_, i, j).k == 0 || fetex::pinchmap_texel(t_, i + 1, j).k == 0 ||
                fetex::pinchmap_texel(t_, i, j + 1).k == 0 || fetex::pinchmap_texel(t_, i + 1, j + 1).k == 0;
@@ -103,15 +116,16 @@ class SignalFitter {
             place.k = fetex::pinchmap_texel(t_, i, j).k;
         }
         const double side = place.k - place.gamma;
-        const bool right = (side > 0) == above;
-        if (!right && std::abs(side) >= budget::kPinchmapFarInside) {
-            if (sums.lost++ == 0) sums.first_x = x, sums.first_y = row;
-        } else if ((!right || std::abs(side) < budget::kPinchmapOnTheLine) && !blurred) {
-            return;
+        const bool right = (side > 0) == above, far = !right && std::abs(side) >= budget::kPinchmapFarInside;
+        if (far && sums.lost++ == 0) sums.first_x = x, sums.first_y = row;
+        if (!blurred && !far && std::abs(side) < budget::kPinchmapOnTheLine) return;
+        double weight = point.clean || blurred ? 1 : budget::kSignalMixed;
+        if (!right && !far && !blurred) {
+            if (holds_outline_[std::size_t{j} * t_.width + i] != 0) return;
+            weight *= budget::kSignalWrong;
         }
         const double scale = std::ldexp(1.0, static_cast<int>(t_.scale));
-        sums.equations.add((place.i + place.x) * scale, (place.j + place.y) * scale, channels_of(point.color),
-                           point.clean || blurred ? 1 : budget::kSignalMixed);
+        sums.equations.add((place.i + place.x) * scale, (place.j + place.y) * scale, channels_of(point.color), weight);
     }
 
     const fetex::PinchmapTexture& t_;
@@ -119,7 +133,7 @@ class SignalFitter {
     std::uint32_t n_, columns_, rows_;
     std::vector<OutlineSegment> outline_;
     ScannedOutline sides_;
-    std::vector<std::uint8_t> active_; ///< clusters
+    std::vector<std::uint8_t> active_, holds_outline_; ///< clusters
 };
 
 } // namespace

@@ -22,9 +22,10 @@ std::uint32_t signal_points(std::uint32_t scale);
 
 /// Sets the samples of a texture with a map: those that, read at g of each point (§7.2: g(p) is where the sampler reads
 /// for p) and interpolated, come nearest to the drawing's colours by least squares. (The paper takes means around
-/// g⁻¹ of a sample, which beside a discontinuity are those of one half of it.) A point counts only where the map and
-/// the drawing have it on one side; so no colour gets across, but for what is lost far inside a zone, and where the
-/// strength is below 1. paint: of width · signal_points × height · signal_points. The same for any number of threads.
+/// g⁻¹ of a sample, which beside a discontinuity are those of one half of it.) A point counts only
+/// where the map and the drawing have it on one side; so no colour gets across, but for what is lost far inside a zone,
+/// and where the strength is below 1. In clusters without an edge of the drawing others hardly count, but they do.
+/// paint: of width · signal_points × height · signal_points. The same for any number of threads.
 SignalFit fit_signal(fetex::PinchmapTexture& texture, const Silhouette& silhouette, const RowPainter& paint,
                      unsigned threads);
 

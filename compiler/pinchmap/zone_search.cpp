@@ -42,11 +42,12 @@ class Search {
 
     void run() {
         best_ = mask_.above;
-        const std::uint64_t tries = kTries * places_.size();
-        for (std::uint64_t n = 0; n < tries; ++n) {
-            const double t = static_cast<double>(n) / static_cast<double>(tries);
+        for (std::uint64_t n = 0; n < kTries; ++n) {
+            const double t = static_cast<double>(n) / kTries;
             price_ = kBroken * std::pow(kBrokenInTheEnd / kBroken, t);
-            attempt(kHot * std::pow(kCold / kHot, t));
+            const double temperature = kHot * std::pow(kCold / kHot, t);
+            for (std::size_t k = 0; k < places_.size(); ++k)
+                attempt(temperature);
         }
         mask_.above = best_;
     }

@@ -7,6 +7,7 @@
 
 #include "compiler/pinchmap/pinch_frame.h"
 #include "compiler/pinchmap/zone_mask.h"
+#include "compiler/pinchmap/zone_patches.h"
 #include "compiler/pinchmap/zone_search.h"
 #include "formats/validate.h"
 #include "tests/support/known_pinchmap.h"
@@ -112,6 +113,40 @@ TEST(PinchmapMask, searchedZonesAreValidAndCheaper) {
         won += before - unmendable(mask, truth);
     }
     EXPECT_GT(won, 1);
+}
+
+/// Of two valid masks, some of the places where they differ from one and the others from the other.
+TEST(PinchmapMask, patchesOfValidMasksMix) {
+    Random random(13);
+    std::uint32_t patches = 0;
+    for (int n = 0; n < 100; ++n) {
+        const auto width = static_cast<std::uint32_t>(random.integer(1, 40)),
+                   height = static_cast<std::uint32_t>(random.integer(1, 40));
+        const auto valid_mask = [&](const std::vector<double>& parts) {
+            const ZoneTruth truth = truth_of(parts, width, height);
+            ZoneMask mask = majority_mask(truth.parts, width, height);
+            enforce_constraints(mask, truth);
+            return mask;
+        };
+        std::vector<double> parts = random_parts(random, width, height);
+        const ZoneMask one = valid_mask(parts);
+        for (double& part : parts) {
+            if (random.chance(0.03)) part = 1 - part;
+        }
+        const ZoneMask other = valid_mask(parts);
+        const ZonePatches found = patches_between(one, other);
+        patches += found.count;
+        std::vector<std::uint8_t> takes(found.count);
+        for (std::uint8_t& take : takes)
+            take = random.chance(0.5) ? 1 : 0;
+        ZoneMask mixed = one;
+        for (std::size_t k = 0; k < mixed.above.size(); ++k) {
+            ASSERT_EQ(found.of[k] != ZonePatches::kNone, one.above[k] != other.above[k]) << n;
+            if (found.of[k] != ZonePatches::kNone && takes[found.of[k]] != 0) mixed.above[k] = other.above[k];
+        }
+        ASSERT_TRUE(all_valid(mixed)) << n;
+    }
+    EXPECT_GT(patches, 300u);
 }
 
 /// Nothing that is valid is changed, and what is_valid_cluster says is what the validator does.

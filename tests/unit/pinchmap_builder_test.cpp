@@ -164,6 +164,39 @@ TEST(PinchmapBuilder, crowdedEdgesAreBlurred) {
     EXPECT_EQ(build(art("alternatives/gear_logo"), options_of(32)).stats.lost_edges.texels, 0u);
 }
 
+class SampledPinchmap final : public measure::Picture {
+  public:
+    explicit SampledPinchmap(const fetex::PinchmapTexture& t) : t_(t) {}
+    [[nodiscard]] Rgba at(measure::TexturePoint p) const override {
+        const fetex::FbtColor c = fetex::pinchmap_sample(t_, p.u * t_.width, p.v * t_.height);
+        return {c.r, c.g, c.b, c.a};
+    }
+    [[nodiscard]] GridSize texels() const override { return {t_.width, t_.height}; }
+    [[nodiscard]] std::uint64_t gpu_bytes() const override { return fetex::pinchmap_gpu_bytes(t_); }
+
+  private:
+    const fetex::PinchmapTexture& t_;
+};
+
+/// The largest error of a colour away from edges, of 255.
+double worst_color(const Scene& scene, const PinchmapBuild& b) {
+    const auto truth = measure::Truth::of(scene, 0);
+    measure::MeasureOptions options;
+    options.sizes = {{128, 128}}, options.threads = 0;
+    options.figures = measure::Figures::none();
+    options.figures.away = true;
+    const auto measurer = measure::Measurer::of(*truth.value(), options);
+    return 255 * measurer.value().measure(SampledPinchmap(b.texture))[0].away.max;
+}
+
+/// Circles and gradients in many colours: zones that are worth it elsewhere leave no hole or isle in other places.
+TEST(PinchmapBuilder, zonesLeaveNoSpots) {
+    const Scene discs = art("discs");
+    const PinchmapBuild b = build(discs, options_of(40));
+    EXPECT_LE(worst_color(discs, b), 20);
+    EXPECT_LE(b.stats.wrong_area, 8.3e-3);
+}
+
 /// Three colours that all touch: two zones can't hold them.
 TEST(PinchmapBuilder, edgesInAZoneAreNamed) {
     const std::string text =
@@ -223,14 +256,6 @@ TEST(PinchmapBuilder, softTransitionsArentCut) {
     EXPECT_LT(step(soft), 0.2);
 }
 
-/// Bright above and dark below y = 256 on the left, less and less so up to x = 320; one grey on the right of that.
-RasterImage crease() {
-    return test::image_of(512, 512, [](double x, double y) {
-        const double contrast = std::clamp((320 - x) / 200, 0.0, 1.0);
-        return test::grey(0.5 + (y < 256 ? 0.4 : -0.4) * contrast);
-    });
-}
-
 PinchmapBuild build_featured(const RasterImage& image, std::vector<CanvasContour> runs) {
     const FeatureCurves features{static_cast<double>(image.width), static_cast<double>(image.height), std::move(runs)};
     auto made = fetexc::compile_pinchmap(PinchedImage{image, features}, options_of(32));
@@ -238,6 +263,82 @@ PinchmapBuild build_featured(const RasterImage& image, std::vector<CanvasContour
     const auto findings = fetex::validate_pinchmap(made.value().texture, 1);
     EXPECT_TRUE(findings.empty()) << findings[0].message;
     return std::move(made).value();
+}
+
+/// Opaque, of two greys; their edge is a pixel wide on the left and becomes softer to the right, up to 24 pixels.
+RasterImage softening() {
+    return test::image_of(512, 512, [](double x, double y) {
+        const double pixels = 1 + 23 * std::clamp((x - 160) / 192, 0.0, 1.0);
+        return test::grey(0.5 + 0.3 * std::clamp((y - 250) / pixels, -0.5, 0.5));
+    });
+}
+
+double strength_of(const fetex::PinchmapTexture& t, std::uint32_t i, std::uint32_t j) {
+    const fetex::PinchmapTexel texel = fetex::pinchmap_texel(t, i, j);
+    return texel.k == 0 ? std::max(std::abs(texel.du), std::abs(texel.dv)) : -1;
+}
+
+/// The strength of the active texel in a column.
+double strength_in_column(const fetex::PinchmapTexture& t, std::uint32_t i) {
+    double strength = -1;
+    for (std::uint32_t j = 0; j <= t.height; ++j)
+        strength = std::max(strength, strength_of(t, i, j));
+    return strength;
+}
+
+void expect_taper(const PinchmapBuild& b) {
+    ASSERT_EQ(b.texture.width, 32u);
+    for (std::uint32_t i = 0; i <= 10; ++i)
+        EXPECT_EQ(strength_in_column(b.texture, i), 1) << i;
+    for (std::uint32_t i = 10; i < 14; ++i)
+        EXPECT_GE(strength_in_column(b.texture, i), strength_in_column(b.texture, i + 1)) << i;
+    for (std::uint32_t i = 14; i <= 32; ++i)
+        EXPECT_EQ(strength_in_column(b.texture, i), 0) << i;
+    const auto step = [&](double x) {
+        double largest = 0;
+        for (double y = 14; y < 17; y += 1.0 / 16)
+            largest = std::max(largest, std::abs(fetex::pinchmap_sample(b.texture, x, y).r -
+                                                 fetex::pinchmap_sample(b.texture, x, y + 1.0 / 16).r));
+        return largest;
+    };
+    EXPECT_GT(step(3.3), 0.29);
+    EXPECT_LT(step(25.3), 0.06);
+}
+
+/// Colours without alpha, of a silhouette of their own and of features: sharp where the image is, and no longer where
+/// it isn't, and that is said.
+TEST(PinchmapBuilder, softTransitionsOfColorsArentCut) {
+    const PinchmapBuild b = build(softening(), options_of(32));
+    expect_taper(b);
+    EXPECT_TRUE(says(b, diag::kPinchmapEdgesBlurred));
+    EXPECT_GE(b.stats.soft_edges.texels, 18u);
+    EXPECT_EQ(b.stats.soft_edges.texels, b.stats.soft_texels);
+    EXPECT_GT(b.stats.soft_edges.widest, 10);
+    EXPECT_GT(b.stats.soft_edges.u, 0.5);
+    PinchmapOptions options = options_of(32);
+    options.silhouette = SilhouetteRule{SilhouetteRule::Kind::Luminance, ""};
+    expect_taper(build(softening(), options));
+    expect_taper(build_featured(softening(), {test::polyline({{0, 250}, {512, 250}})}));
+}
+
+/// An edge that is sharp is so whatever its contrast, beside noise and where a feature lies a pixel beside it.
+TEST(PinchmapBuilder, faintEdgesAreSharp) {
+    std::uint32_t state = 1;
+    const RasterImage image = test::image_of(512, 512, [&](double /*x*/, double y) {
+        state = state * 1664525 + 1013904223;
+        return test::grey(0.5 + (y < 250 ? 0.02 : -0.02) + 0.004 * (state >> 8) / 0x1p24);
+    });
+    const PinchmapBuild b = build_featured(image, {test::polyline({{0, 251}, {512, 251}})});
+    EXPECT_EQ(b.stats.soft_texels, 0u);
+    EXPECT_FALSE(says(b, diag::kPinchmapEdgesBlurred));
+}
+
+/// Bright above and dark below y = 256 on the left, less and less so up to x = 320; one grey on the right of that.
+RasterImage crease() {
+    return test::image_of(512, 512, [](double x, double y) {
+        const double contrast = std::clamp((320 - x) / 200, 0.0, 1.0);
+        return test::grey(0.5 + (y < 256 ? 0.4 : -0.4) * contrast);
+    });
 }
 
 /// A feature that ends in the image: sharp where it begins, at the border, and no longer where it ends.
@@ -326,20 +427,6 @@ TEST(PinchmapBuilder, refusesSizes) {
     EXPECT_EQ(compile_pinchmap(scene, options_of(16384, 1)).error().code, diag::kSizeOutOfRange);
     EXPECT_EQ(compile_pinchmap(disc(16, 1), options_of(20000)).error().code, diag::kSizeOutOfRange);
 }
-
-class SampledPinchmap final : public measure::Picture {
-  public:
-    explicit SampledPinchmap(const fetex::PinchmapTexture& t) : t_(t) {}
-    [[nodiscard]] Rgba at(measure::TexturePoint p) const override {
-        const fetex::FbtColor c = fetex::pinchmap_sample(t_, p.u * t_.width, p.v * t_.height);
-        return {c.r, c.g, c.b, c.a};
-    }
-    [[nodiscard]] GridSize texels() const override { return {t_.width, t_.height}; }
-    [[nodiscard]] std::uint64_t gpu_bytes() const override { return fetex::pinchmap_gpu_bytes(t_); }
-
-  private:
-    const fetex::PinchmapTexture& t_;
-};
 
 /// §7.3's comparison, over six shapes: against a bitmap of eight times the memory, at two magnifications.
 TEST(PinchmapBuilder, betterThanABitmapOfEightTimesTheMemory) {
