@@ -117,7 +117,14 @@ Result<Network> network_of_bytes(const std::vector<std::uint8_t>& bytes, const s
                                                 : SvgCurves::All;
     auto features = load_svg_features(bytes, svg_options(scene, kFeatureTexels, threads), diagnostics, which);
     if (!features) return features.error();
-    return network_of(features.value());
+    Network network = network_of(features.value());
+    if (network.curves.empty())
+        diagnostics.push_back({Severity::Warning,
+                               diag::kNetworkEmpty,
+                               fmt::format("the drawing has no {} that could be feature curves",
+                                           curves == "strokes" ? "strokes" : "edges or strokes"),
+                               {}});
+    return network;
 }
 
 Result<CompiledCurves> compile_curves(const Network& network, const CurvesRequest& request,

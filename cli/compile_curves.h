@@ -42,8 +42,8 @@ struct CurvesRequest {
 /// The first character that isn't space is a brace.
 bool is_network(std::span<const std::uint8_t> bytes);
 
-/// A network's own curves, or a drawing's. Errors: those of read_network and load_svg_features. Diagnostics are
-/// appended on success and on error.
+/// A network's own curves, or a drawing's; of neither any is warning 2062. Errors: those of read_network and
+/// load_svg_features. Diagnostics are appended on success and on error.
 Result<Network> network_of_bytes(const std::vector<std::uint8_t>& bytes, const std::string& curves,
                                  const SceneOptions& scene, unsigned threads, std::vector<Diagnostic>& diagnostics);
 
