@@ -52,21 +52,29 @@ class Writer {
         if ((curves_.texel(i, j).curved >> segment & 1u) == 0) return true;
         const auto read = fetex::feature_curve(signature, fetex::kFeatureSegments[segment], false);
         if (read && fault_of({read->b0, read->b1, read->b2}) == SignatureFault::None) return false;
-        if (is_flat(shown_segment(curves_, i, j, segment).curve)) {
+        const SegmentCurve curve = shown_segment(curves_, i, j, segment).curve;
+        if (is_flat(curve))
             ++out_.flat;
-            return true;
-        }
-        if (out_.straightened == 0) out_.first_i = i, out_.first_j = j;
-        ++out_.straightened;
+        else
+            straighten(i, j, from_chord(curve));
         return true;
+    }
+
+    void straighten(std::uint32_t i, std::uint32_t j, double moved) {
+        ++out_.straightened;
+        if (moved > budget::kFeatureChord) ++out_.moved;
+        if (moved > out_.farthest) out_.farthest = moved, out_.farthest_i = i, out_.farthest_j = j;
+    }
+
+    static double from_chord(const SegmentCurve& c) {
+        return std::hypot(c[0].x - 2 * c[1].x + c[2].x, c[0].y - 2 * c[1].y + c[2].y) / 4;
     }
 
     static bool is_flat(const SegmentCurve& c) {
         const double ax = c[1].x - c[0].x, ay = c[1].y - c[0].y, bx = c[2].x - c[1].x, by = c[2].y - c[1].y;
         const double turn = std::abs(ax * by - ay * bx), lengths = std::hypot(ax, ay) * std::hypot(bx, by);
         if (turn < 2 * fetex::kFeatureLeastTurn * lengths) return true;
-        const double away = std::hypot(c[0].x - 2 * c[1].x + c[2].x, c[0].y - 2 * c[1].y + c[2].y) / 4;
-        return away <= budget::kFeatureFlat;
+        return from_chord(c) <= budget::kFeatureFlat;
     }
 
     const SnappedCurves& curves_;
@@ -81,11 +89,15 @@ QuadraticTexture quadratic_texture(const SnappedCurves& curves, fetex::FeatureNu
 }
 
 std::vector<Diagnostic> rounding_diagnostics(const QuadraticTexture& written) {
-    if (written.straightened == 0) return {};
-    return {{Severity::Warning, diag::kFeatureStraightened,
-             std::to_string(written.straightened) +
-                 " segments of feature curves are straight: the texture's numbers are too coarse for them",
-             "texel (" + std::to_string(written.first_i) + ", " + std::to_string(written.first_j) + ")"}};
+    constexpr double kParts = 10000;
+    if (written.moved == 0) return {};
+    const auto parts = static_cast<std::uint64_t>(std::ceil(written.farthest * kParts));
+    return {
+        {Severity::Warning, diag::kFeatureStraightened,
+         std::to_string(written.moved) +
+             " segments of feature curves are straight: the texture's numbers are too coarse for them; they moved by " +
+             std::to_string(parts) + " ten-thousandths of a texel at most",
+         "texel (" + std::to_string(written.farthest_i) + ", " + std::to_string(written.farthest_j) + ")"}};
 }
 
 } // namespace fetexc
