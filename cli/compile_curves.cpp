@@ -68,6 +68,8 @@ Status check_curves_base(const CurvesCommandOptions& how) {
     if (how.kind == "height" && !how.base.empty() && !(how.base_height > 0))
         return usage("--base of heights needs --base-height");
     if (how.kind == "color" && how.base_height > 0) return usage("--base-height is for --kind normal and height");
+    if (how.kind != "color" && how.base_color != CurvesCommandOptions{}.base_color)
+        return usage("--base-color is for --kind color");
     if (how.base == "-") return usage("--base takes a file, not stdin");
     return {};
 }
@@ -84,7 +86,11 @@ Result<std::optional<FeatureProfile>> wanted_profile(const Network& network, con
         return preset_profile(how.profile, width);
     }
     const auto bytes = read_input(how.profile, kMaxProfileBytes);
-    if (!bytes) return bytes.error();
+    if (!bytes) {
+        Error error = bytes.error();
+        error.message += "; nor has the network a profile of that name, nor is it a preset's";
+        return error;
+    }
     file = how.profile;
     auto profile = read_profile(bytes.value());
     if (!profile) return profile.error();

@@ -135,6 +135,9 @@ int run_render(const RenderOptions& options) {
             {ErrorClass::Usage, diag::kBadUsage, "--nearest is for silhouette-map textures", options.input});
     if (!options.normal_y.empty() && !options.light)
         return report_error({ErrorClass::Usage, diag::kBadUsage, "--normal-y goes with --light", ""});
+    if (options.light && file.feature_curves && file.feature_curves->kind == fetex::FeatureKind::Height)
+        return report_error(
+            {ErrorClass::Usage, diag::kBadUsage, "--light is for normals; this shows heights", options.input});
     if (options.overlay && !file.silmap && !file.pinchmap && !file.feature_curves)
         return report_error({ErrorClass::Usage, diag::kBadUsage,
                              "--overlay is for silhouette-map textures, pinchmaps and feature curves", options.input});

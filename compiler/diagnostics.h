@@ -68,7 +68,7 @@ inline constexpr int kMoreImages = 2057;         ///< the file holds more images
 
 // Bezier networks: warnings
 inline constexpr int kNetworkPointSegments = 2061; ///< segments of a network that are a single point were left out (count)
-inline constexpr int kNetworkEmpty = 2062;         ///< a network without a curve
+inline constexpr int kNetworkEmpty = 2062;         ///< a network, or a drawing taken as one, without a curve
 
 // SVG front end: notes, how something is represented
 inline constexpr int kSvgFilterRasterised = 2101;  ///< filtered content became a raster layer
@@ -115,7 +115,8 @@ inline constexpr int kPinchmapEdgesBlurred = 5133; ///< visible edges that a pin
 inline constexpr int kFeatureMoved = 5141;   ///< texels in which feature curves were moved by more than half a texel, to have one point an edge and two segments a texel (count, farthest)
 inline constexpr int kFeatureEndsCut = 5142; ///< ends of feature curves inside a texel that end on its boundary instead (count)
 inline constexpr int kFeatureLost = 5143;    ///< feature curves that lie inside one texel, or fold back in it, and don't show (count)
-inline constexpr int kFeatureStraightened = 5144; ///< segments of feature curves that are straight, and bend where they end, as no valid quadratic was found (count)
+inline constexpr int kFeatureStraightened = 5144; ///< segments of feature curves that are straight, and bend where they end, as no valid quadratic was found or rounding broke it (count)
+inline constexpr int kFeatureSides = 5145; ///< curves whose sides have colours of their own (`left`, `right`), which no texture with feature curves shows (count)
 inline constexpr int kFeatureProfiles = 5148; ///< curves that have another profile than they ask for: where they cross an edge of a texel with others, or beyond the 16 of a texture (count)
 inline constexpr int kFeatureOtherTruth = 5149; ///< `compare`: a texture with feature curves was made with another base map or profile than its truth has
 

@@ -46,6 +46,17 @@ void tell_profiles(const TextureProfiles& profiles, std::uint64_t overlaid, Feat
     build.stats.curves_other_profile = profiles.curves_beyond() + overlaid;
 }
 
+/// A texture's colours depend on the distance alone.
+void tell_sides(const Network& network, FeatureCurvesBuild& build) {
+    const auto count = std::ranges::count_if(
+        network.curves, [](const NetworkCurve& c) { return c.left.has_value() || c.right.has_value(); });
+    if (count > 0)
+        build.diagnostics.push_back({Severity::Warning, diag::kFeatureSides,
+                                     std::to_string(count) + " curves have colours for their sides (left, right); "
+                                                             "both sides show the profile's",
+                                     std::string()});
+}
+
 /// Whatever distance a point of a texel has within a profile's width, its texel's corners are at most a diagonal
 /// farther.
 double limit_for(const std::vector<FeatureProfile>& profiles, double scale) {
@@ -181,6 +192,7 @@ Result<FeatureCurvesBuild> compile_feature_curves(const Network& network, const 
     if (options.mips) build.texture.mips = fetex::feature_make_mips(build.texture);
     count(curves.value(), map, build);
     tell_profiles(profiles, overlaid, build);
+    if (options.kind == FeatureKind::Color) tell_sides(network, build);
     for (Diagnostic& d : snap_diagnostics(curves.value()))
         build.diagnostics.push_back(std::move(d));
     build.moves = std::move(curves.value().moves);

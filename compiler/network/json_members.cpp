@@ -13,10 +13,11 @@ std::string position_name(std::span<const std::uint8_t> bytes, std::size_t at) {
     return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::ptrdiff_t>(end - start, 1));
 }
 
-/// The library's text without its number and position, which comes before ": ".
+/// The library's text without its number and position, which come before ": ", or before "] " where it names none.
 std::string reason(const std::string& what) {
-    const std::size_t colon = what.find(": ");
-    return colon == std::string::npos ? what : what.substr(colon + 2);
+    const std::size_t colon = what.find(": "), bracket = what.find("] ");
+    const std::size_t end = colon != std::string::npos ? colon : bracket;
+    return end == std::string::npos ? what : what.substr(end + 2);
 }
 
 } // namespace
