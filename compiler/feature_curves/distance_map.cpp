@@ -85,14 +85,28 @@ class Rasteriser {
         // Each corner looks at the texels around it, in the order of rows.
         if (j > 0) look_along(j - 1, j);
         if (j < map_.height) look_along(j, j);
+        std::uint32_t empty = 0; // rings, from the first one on, around the corner before
         for (std::uint32_t i = 0; i <= map_.width; ++i) {
-            for (std::uint32_t ring = 1; ring * ring < nearest_[i].squared; ++ring) // its texels are so far at least
-                look_at_ring(i, j, ring, nearest_[i]);
+            empty = look_around(i, j, empty > 0 ? empty - 1 : 0);
             store(i, j);
         }
     }
 
   private:
+    /// Rings up to `empty` have no curves; so have those up to what is returned. Around the next corner one less has
+    /// none: there a texel may be one ring nearer.
+    std::uint32_t look_around(std::uint32_t i, std::uint32_t j, std::uint32_t empty) {
+        const std::uint32_t last = std::max(map_.width, map_.height); // others are outside of the texture
+        Nearest& best = nearest_[i];
+        bool all_empty = best.segment == kNone;
+        // A ring's texels are so far at least.
+        for (std::uint32_t ring = empty + 1; ring <= last && ring * ring < best.squared; ++ring) {
+            all_empty = look_at_ring(i, j, ring, best) && all_empty;
+            if (all_empty) empty = ring;
+        }
+        return empty;
+    }
+
     static CanvasPoint corner(std::uint32_t i, std::uint32_t j) {
         return {static_cast<double>(i), static_cast<double>(j)};
     }
@@ -147,9 +161,12 @@ class Rasteriser {
     }
 
     /// Texels that a square of 2·ring + 2 texels around the corner has on its border, but those beyond the distance.
-    void look_at_ring(std::uint32_t i, std::uint32_t j, std::uint32_t ring, Nearest& best) const {
+    /// False if one of them has curves, or some weren't looked at.
+    bool look_at_ring(std::uint32_t i, std::uint32_t j, std::uint32_t ring, Nearest& best) const {
         const std::uint32_t reach = static_cast<std::uint32_t>(std::sqrt(best.squared + kRounding - ring * ring));
+        bool empty = reach >= ring;
         const auto look = [&](std::uint32_t x, std::uint32_t y) {
+            empty = false;
             Nearest where{0, {}, 0, x, y};
             segments_.visit_texel(x, y, [&](const TextureSegment& s) {
                 look_at(s, where, corner(i, j), best);
@@ -169,6 +186,7 @@ class Rasteriser {
             if (x >= 0 && x < map_.width)
                 occupied.in_column(static_cast<std::uint32_t>(x), rows.first, rows.last,
                                    [&](std::uint32_t y) { look(static_cast<std::uint32_t>(x), y); });
+        return empty;
     }
 
     struct Span {

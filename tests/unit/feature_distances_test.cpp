@@ -85,36 +85,55 @@ CanvasPoint nearest_point(const std::vector<TextureSegment>& segments, CanvasPoi
     return best;
 }
 
-TEST(DistanceMap, isExactOnRandomNetworks) {
-    Random random(1);
+struct Corners {
     std::size_t near = 0, far = 0;
-    for (int k = 0; k < 40; ++k) {
-        const FeatureCurvesTexture t = snapped(random_network(random, k % 2 == 0 ? 5 : 25), 30, 17);
-        const DistanceMap map = distance_map(TextureSegments(t), kLimit, 1);
-        const std::vector<TextureSegment> all = all_of(t);
-        if (all.empty()) continue;
-        for (std::uint32_t j = 0; j <= t.height; ++j) {
-            for (std::uint32_t i = 0; i <= t.width; ++i) {
-                const std::size_t at = std::size_t{j} * (t.width + 1) + i;
-                const CanvasPoint q = nearest_point(all, {double(i), double(j)});
-                const double d = std::hypot(q.x - i, q.y - j);
-                ASSERT_NEAR(map.distances[at], std::min<double>(d, kLimit), kRounding) << i << ' ' << j;
-                const DistanceGradient g = map.gradients[at];
-                if (d > kLimit) {
-                    ++far;
-                    ASSERT_EQ(g, DistanceGradient{});
-                    continue;
-                }
-                // Between two points as near as each other either direction is right: so the point it points to counts.
-                ++near;
-                const CanvasPoint to{i - d * g.x, j - d * g.y}, on = nearest_point(all, to);
-                ASSERT_NEAR(std::hypot(on.x - to.x, on.y - to.y), 0, kRounding) << i << ' ' << j;
-                ASSERT_NEAR(std::hypot(g.x, g.y), 1, kRounding);
+};
+
+void expect_exact(const FeatureCurvesTexture& t, double limit, Corners& corners) {
+    const DistanceMap map = distance_map(TextureSegments(t), limit, 1);
+    const std::vector<TextureSegment> all = all_of(t);
+    if (all.empty()) return;
+    for (std::uint32_t j = 0; j <= t.height; ++j) {
+        for (std::uint32_t i = 0; i <= t.width; ++i) {
+            const std::size_t at = std::size_t{j} * (t.width + 1) + i;
+            const CanvasPoint q = nearest_point(all, {double(i), double(j)});
+            const double d = std::hypot(q.x - i, q.y - j);
+            ASSERT_NEAR(map.distances[at], std::min<double>(d, limit), kRounding) << i << ' ' << j;
+            const DistanceGradient g = map.gradients[at];
+            if (d > limit) {
+                ++corners.far;
+                ASSERT_EQ(g, DistanceGradient{});
+                continue;
             }
+            // Between two points as near as each other either direction is right: so the point it points to counts.
+            ++corners.near;
+            const CanvasPoint to{i - d * g.x, j - d * g.y}, on = nearest_point(all, to);
+            ASSERT_NEAR(std::hypot(on.x - to.x, on.y - to.y), 0, kRounding) << i << ' ' << j;
+            ASSERT_NEAR(std::hypot(g.x, g.y), 1, kRounding);
         }
     }
-    EXPECT_GT(near, 5000u);
-    EXPECT_GT(far, 500u);
+}
+
+TEST(DistanceMap, isExactOnRandomNetworks) {
+    Random random(1);
+    Corners corners;
+    for (int k = 0; k < 40; ++k)
+        expect_exact(snapped(random_network(random, k % 2 == 0 ? 5 : 25), 30, 17), kLimit, corners);
+    EXPECT_GT(corners.near, 5000u);
+    EXPECT_GT(corners.far, 500u);
+}
+
+TEST(DistanceMap, isExactFarFromFewCurves) {
+    Random random(5);
+    for (const double limit : {0.7, 1.3, 2.0, 9.0, 23.0, 65504.0}) {
+        Corners corners;
+        for (int k = 0; k < 20; ++k)
+            expect_exact(snapped(random_network(random, 1 + k % 2), 70, 41), limit, corners);
+        EXPECT_GT(corners.near, 300u);
+        if (limit < 10) {
+            EXPECT_GT(corners.far, 5000u);
+        }
+    }
 }
 
 TEST(DistanceMap, hasTheSameBitsForAnyNumberOfThreads) {
