@@ -179,8 +179,9 @@ TEST_P(FeatureCurvesConformance, equalsTheReferenceInEveryConfiguration) {
     std::uint64_t seed = 100;
     for (const fetex::FeatureConfiguration edges : all) {
         for (const bool neighbours : {false, true}) {
+            ++seed;
             FeatureCurvesTexture t = texture_of(
-                ++seed,
+                seed,
                 {.width = 3, .height = 3, .linear = seed % 3 == 0, .profiles = seed % 2 == 0 ? 3u : 1u, .coverage = 1});
             if (!neighbours) std::ranges::fill(t.configurations, fetex::FeatureConfiguration{0});
             const fetex::FeatureSegmentList list = fetex::feature_unpack(edges);
