@@ -108,8 +108,10 @@ Status write_all(const BenchOptions& options, const std::vector<BenchFile>& file
 int run_bench(BenchOptions options) {
     options.sweep.timing = !options.no_timing, options.sweep.equal_bitmap = !options.no_equal_bitmap;
     if (const Status status = check_outputs(options); !status) return report_error(status.error());
-    if (std::ranges::count(options.representations, "fbt") == 0)
-        return report_error({ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt: its sizes are swept", {}});
+    options.sweep.fbt = std::ranges::count(options.representations, "fbt") > 0;
+    if (!options.sweep.fbt && std::ranges::any_of(options.representations, [](const auto& r) { return r != "curves"; }))
+        return report_error(
+            {ErrorClass::Usage, diag::kBadUsage, "--repr must name fbt, whose sizes are swept, or curves alone", {}});
     options.sweep.bilevel = std::ranges::count(options.representations, "bilevel") > 0;
     options.sweep.silmap = std::ranges::count(options.representations, "silmap") > 0;
     options.sweep.curves = std::ranges::count(options.representations, "curves") > 0;
@@ -151,7 +153,7 @@ Command add_bench_command(CLI::App& parent) {
     app->add_option(
            "--repr", options->representations,
            "Representations: fbt, whose sizes are swept, bilevel, silmap and pinchmap in its bytes, and curves, "
-           "held against what their profiles make of a plane (default: all)")
+           "held against what their profiles make of a plane; fbt among them, or curves alone (default: all)")
         ->delimiter(',')
         ->check(CLI::IsMember(representation_names()))
         ->type_name("NAME,...");

@@ -390,16 +390,16 @@ Result<BenchFile> sweep_file(const std::string& path, const SweepOptions& option
     const auto bytes = read_input(path, SvgLimits{}.bytes);
     if (!bytes) return bytes.error();
     BenchFile out;
-    const bool network = is_network(bytes.value());
-    if (!network) {
+    const bool only_curves = is_network(bytes.value()) || !options.fbt;
+    if (!only_curves) {
         auto swept = Sweep(path, bytes.value(), options, timer, progress).run(diagnostics);
         if (!swept) return swept;
         out = std::move(swept).value();
     }
     out.path = path;
-    if (!network && !options.curves) return out;
+    if (!only_curves && !options.curves) return out;
     std::vector<Diagnostic> said; // of a drawing: heard already
-    const Status status = sweep_curves(bytes.value(), options, timer, progress, network ? diagnostics : said, out);
+    const Status status = sweep_curves(bytes.value(), options, timer, progress, only_curves ? diagnostics : said, out);
     if (!status) return status.error();
     return out;
 }

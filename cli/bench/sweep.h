@@ -22,6 +22,7 @@ struct SweepOptions {
     bool equal_bitmap = true;
     /// Among what has the FBT's bytes: bi-level, silhouette-map textures, pinchmaps.
     bool bilevel = true, silmap = true, pinchmap = true;
+    bool fbt = true;    ///< false: of drawings, too, curves alone
     bool curves = true; ///< what is made of curves, too
 };
 
