@@ -20,6 +20,7 @@ using Difference = measure::PictureDifference;
 
 /// The same figure of each kind of entry.
 template <class... Of> struct Figure : Of... { using Of::operator()...; };
+template <class... Of> Figure(Of...) -> Figure<Of...>; // clang 14 has none for aggregates
 /// Not one of such entries: options that ask for it are refused before.
 template <class Entry> constexpr auto nothing = [](const Entry&) { return 0.0; };
 

@@ -74,7 +74,7 @@ ChannelReads reads_of(const ChannelPlan& plan) {
     std::vector<int> wanted{plan.r, plan.g, plan.b};
     if (plan.a >= 0) wanted.push_back(plan.a);
     std::ranges::sort(wanted);
-    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
     if (wanted.back() - wanted.front() < close) {
         out.step = wanted.back() - wanted.front() + 1;
         out.ranges.push_back({wanted.front(), wanted.back() + 1, 0});

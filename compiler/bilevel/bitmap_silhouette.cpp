@@ -49,8 +49,9 @@ class Field {
         }
         // The means are drawn together by the pixels of the edges: the flat ones' say what the levels are.
         const double half = 0.5 * (low + high), reach = 0.25 * (high - low);
-        low_ = mean_of([&](double v) { return v <= half && v <= low + reach; }, low);
-        high_ = mean_of([&](double v) { return v > half && v >= high - reach; }, high);
+        const double low_most = low + reach, high_least = high - reach;
+        low_ = mean_of([&](double v) { return v <= half && v <= low_most; }, low);
+        high_ = mean_of([&](double v) { return v > half && v >= high_least; }, high);
     }
 
     [[nodiscard]] double at(std::int64_t x, std::int64_t y) const {

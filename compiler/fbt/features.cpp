@@ -316,8 +316,9 @@ void FeatureBuilder::order_by_subtree(std::span<const SimpleFeature> features) {
     order_.clear(), path_.clear(), opened_.assign(features.size(), false);
     const auto open = [&](std::uint32_t parent) { // the first sibling ends on top
         const auto by_parent = [](const auto& child) { return child.first; };
-        for (const auto& child : std::ranges::equal_range(children_, parent, std::greater<>(), by_parent))
-            path_.push_back(child.second);
+        auto child = std::ranges::lower_bound(children_, parent, std::greater<>(), by_parent);
+        for (; child != children_.end() && child->first == parent; ++child)
+            path_.push_back(child->second);
     };
     open(kNone);
     while (!path_.empty()) {

@@ -108,7 +108,7 @@ class RegionColorFinder {
                 }
             }
             std::ranges::sort(next);
-            next.erase(std::ranges::unique(next).begin(), next.end());
+            next.erase(std::unique(next.begin(), next.end()), next.end());
             std::vector<std::uint32_t> found;
             for (const std::uint32_t hole : next)
                 found.push_back(nearest_source(hole));

@@ -41,9 +41,8 @@ void keep_each_once(std::vector<Segment>& segments) {
     for (Segment& s : segments)
         orient(s);
     std::ranges::sort(segments, [](const Segment& a, const Segment& b) { return key(a) < key(b); });
-    const auto rest =
-        std::ranges::unique(segments, [](const Segment& a, const Segment& b) { return key(a) == key(b); });
-    segments.erase(rest.begin(), rest.end());
+    const auto same = [](const Segment& a, const Segment& b) { return key(a) == key(b); };
+    segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
 }
 
 } // namespace

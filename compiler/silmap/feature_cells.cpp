@@ -29,9 +29,9 @@ class Joined {
         const auto index = [&](std::uint32_t v) { return v - first_p < count_p ? v - first_p : v - first_q + count_p; };
         const auto in_q = [&](std::uint32_t v) { return v - first_q < count_q; };
         for (std::uint32_t v = first_p; v < first_p + count_p; ++v) {
-            const auto links = std::ranges::equal_range(graph_.links(), v, {}, &ReachLink::a);
-            for (const ReachLink& l : links) {
-                if (in_q(l.b)) sets.unite(index(l.a), index(l.b));
+            const auto links = graph_.links();
+            for (auto l = std::ranges::lower_bound(links, v, {}, &ReachLink::a); l != links.end() && l->a == v; ++l) {
+                if (in_q(l->b)) sets.unite(index(l->a), index(l->b));
             }
         }
         return sets.find(index(a)) == sets.find(index(b));

@@ -162,15 +162,15 @@ double PointMoves::sampled_balance_of(const SilmapCellData& c, const SilmapPoint
     auto u = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.x + 1) * column) + du / 2),
          v = static_cast<std::uint32_t>(static_cast<std::int32_t>((p.y + 1) * line) + dv / 2);
     int balance = 0, weight = 2 * parts - 1; // the part's distance from the other point, in halves of parts
-    const auto go_on = [&] { weight -= 2, u += static_cast<std::uint32_t>(du), v += static_cast<std::uint32_t>(dv); };
-    for (; weight > 0; go_on()) {
+    const auto go_on = [&] { u += static_cast<std::uint32_t>(du), v += static_cast<std::uint32_t>(dv); };
+    for (; weight > 0; weight -= 2, go_on()) {
         const std::uint32_t i = (u >> 16) - columns, j = (v >> 16) - lines;
         if (i >= columns || j >= lines) break;
         balance += weight * own.side(i, j, right, left);
     }
     if (c.neighbours[link] == kOwnPoint) return balance;
     const CellSamples& other = samples_of(cells_.cells[c.neighbours[link]]);
-    for (; weight > 0; go_on())
+    for (; weight > 0; weight -= 2, go_on())
         balance += weight * other.side((u >> 16) % columns, (v >> 16) & (lines - 1), corner_across(right, link),
                                        corner_across(left, link));
     return balance;
