@@ -20,9 +20,8 @@ namespace {
 
 using fetexc::test::Random;
 
-/// In the paper's order A, B, C, D, our corners; N, E, S, W, our links.
+/// In the paper's order A, B, C, D, our corners.
 constexpr std::array<std::uint32_t, 4> kCorners = {kSilmapNE, kSilmapSE, kSilmapSW, kSilmapNW};
-constexpr std::array<std::uint32_t, 4> kLinks = {kSilmapNorth, kSilmapEast, kSilmapSouth, kSilmapWest};
 constexpr int kA = 0, kB = 1, kC = 2, kD = 3;
 
 struct Boundaries {
