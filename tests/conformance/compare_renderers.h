@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -51,57 +52,71 @@ inline double different_share(const fetex::Image& a, const fetex::Image& b, doub
     return static_cast<double>(different) / static_cast<double>(a.rgba.size());
 }
 
-/// Whether the reference colour changes within a hair of the point, in the eight directions. Beyond the texture its
-/// border is repeated, so there the nearest point of the border counts.
-inline bool on_edge(const fetex::FbtTexture& texture, double x, double y) {
+/// Whether the reference's colour sample(x, y) at a place in texels changes by more than a step within a hair of it, in
+/// the eight directions. Beyond the texture its border is repeated, so there the nearest point of the border counts.
+template <class Texture, class Sample>
+bool changes_nearby(const Texture& texture, const Sample& sample, double x, double y, double step = kColorStep) {
     x = std::clamp<double>(x, 0, texture.width);
     y = std::clamp<double>(y, 0, texture.height);
-    const fetex::FbtColor center = fetex::fbt_sample(texture, x, y);
+    const fetex::FbtColor center = sample(x, y);
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
-            if (color_distance(center, fetex::fbt_sample(texture, x + dx * kEdgeHair, y + dy * kEdgeHair)) > kColorStep)
-                return true;
+            if (color_distance(center, sample(x + dx * kEdgeHair, y + dy * kEdgeHair)) > step) return true;
     return false;
 }
 
-/// One frame, one sample a pixel.
-inline Comparison compare_frame(const fetex::FbtTexture& texture, fetex::Renderer& renderer, const fetex::View& view,
-                                std::uint32_t width, std::uint32_t height) {
+/// The largest difference of the four channels from `at` on; infinite if one of them is no number.
+inline double pixel_difference(const fetex::Image& a, const fetex::Image& b, std::size_t at) {
+    double largest = 0;
+    for (std::size_t c = at; c < at + 4; ++c) {
+        const double difference = std::abs(a.rgba[c] - b.rgba[c]);
+        largest = std::max(largest, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference);
+    }
+    return largest;
+}
+
+/// Two images of one view of the texture, one sample a pixel. sample(x, y) is the reference's colour at a place in
+/// texels; pixels that differ by up to a step are equal.
+template <class Texture, class Sample>
+Comparison compare_images(const Texture& texture, const fetex::Outcome<fetex::Image>& reference,
+                          const fetex::Outcome<fetex::Image>& drawn, const fetex::View& view, const Sample& sample,
+                          double step = kColorStep) {
     Comparison result;
-    const fetex::RenderSize size{width, height, 1};
-    const auto reference = fetex::render_cpu(texture, view, size);
-    const auto drawn = renderer.render(view, size);
     if (!reference.ok() || !drawn.ok()) {
         result.error = (reference.ok() ? drawn : reference).error().message;
         return result;
     }
+    const std::uint32_t width = reference.value().width, height = reference.value().height;
     const fetex::ImageAxis columns(view.x, view.w, texture.width, width, 1);
     const fetex::ImageAxis rows(view.y, view.h, texture.height, height, 1);
     result.pixels = std::uint64_t{width} * height;
     for (std::uint32_t py = 0; py < height; ++py) {
         for (std::uint32_t px = 0; px < width; ++px) {
-            double difference = 0;
-            for (std::size_t c = 0; c < 4; ++c) {
-                const std::size_t at = (std::size_t{py} * width + px) * 4 + c;
-                difference =
-                    std::max<double>(difference, std::abs(reference.value().rgba[at] - drawn.value().rgba[at]));
-            }
+            const double difference =
+                pixel_difference(reference.value(), drawn.value(), (std::size_t{py} * width + px) * 4);
             const double x = std::ldexp(static_cast<double>(columns.position(px, 0)), -32);
             const double y = std::ldexp(static_cast<double>(rows.position(py, 0)), -32);
-            if (difference <= kColorStep) {
-                result.largest = std::max(result.largest, difference);
-            } else if (on_edge(texture, x, y)) {
+            if (difference > step && std::isfinite(difference) && changes_nearby(texture, sample, x, y, step)) {
                 ++result.on_edge;
-            } else {
-                ++result.wrong;
-                result.largest = std::max(result.largest, difference);
-                if (result.first_wrong.empty())
-                    result.first_wrong = "texel position (" + std::to_string(x) + ", " + std::to_string(y) +
-                                         "), difference " + std::to_string(difference);
+                continue;
             }
+            result.largest = std::max(result.largest, difference);
+            if (difference <= step) continue;
+            ++result.wrong;
+            if (result.first_wrong.empty())
+                result.first_wrong = "texel position (" + std::to_string(x) + ", " + std::to_string(y) +
+                                     "), difference " + std::to_string(difference);
         }
     }
     return result;
+}
+
+/// One frame, one sample a pixel.
+inline Comparison compare_frame(const fetex::FbtTexture& texture, fetex::Renderer& renderer, const fetex::View& view,
+                                std::uint32_t width, std::uint32_t height) {
+    const fetex::RenderSize size{width, height, 1};
+    return compare_images(texture, fetex::render_cpu(texture, view, size), renderer.render(view, size), view,
+                          [&](double x, double y) { return fetex::fbt_sample(texture, x, y); });
 }
 
 /// Start of a view that doesn't leave the texture, if it is smaller than that: pixels beyond say nothing new.
