@@ -1,50 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Every shader in every dialect and specialisation goes through Khronos's compiler, and the Vulkan ones through
 /// spirv-cross to HLSL, MSL and ES. Skips, and says so, where the tools aren't installed.
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include <unistd.h>
-
 #include "runtime_glsl/host/renderer.h"
-#include "runtime_glsl/host/shader_source.h"
+#include "tests/support/shader_test.h"
 
 namespace fetex {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool has_tool(const char* name) {
-    return std::system((std::string("command -v ") + name + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-class Shaders : public testing::Test {
-  protected:
-    void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) / ("fetex_shaders_" + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    /// Writes the text, runs the command with @ as its path; "" or what the tool said.
-    std::string run(const std::string& text, const std::string& name, const std::string& command) {
-        const fs::path file = folder_ / name, log = folder_ / "log";
-        std::ofstream(file) << text;
-        std::string line = command;
-        for (std::size_t at = 0; (at = line.find('@', at)) != std::string::npos;)
-            line.replace(at, 1, file.string());
-        if (std::system((line + " >" + log.string() + " 2>&1").c_str()) == 0) return {};
-        std::stringstream said;
-        said << std::ifstream(log).rdbuf();
-        return line + "\n" + said.str();
-    }
-
-    fs::path folder_;
-};
+using fetexc::test::compiler_of;
+using fetexc::test::expect_plain_ascii;
+using fetexc::test::text_of;
+using Shaders = fetexc::test::ShaderTest;
 
 FbtTexture needing(std::uint32_t degrees, std::uint32_t switches, std::uint32_t directions) {
     FbtTexture t;
@@ -80,7 +48,7 @@ std::vector<FbtTexture> all_specialisations() {
 }
 
 TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     std::size_t count = 0;
     for (const Dialect dialect : kDialects) {
         const std::string tool =
@@ -120,43 +88,22 @@ TEST_F(Shaders, compileInEveryDialectAndSpecialisation) {
 }
 
 TEST_F(Shaders, compileWithNothingSpecialised) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
-    // The plain files, as an engine uses them: prelude, library, a main of its own.
-    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
     const std::string main_text =
-        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
         "void main() { color = fetexFbtSample(uv) + fetexFbtSampleArea(uv, vec2(0.1))\n"
         "    + fetexFbtSampleMip(uv, 2.5) + fetexFbtSampleMipAniso(uv, dFdx(uv), dFdy(uv)); }\n";
-    std::stringstream library;
-    for (const char* file : {"fetex_fbt.glsl", "fetex_fbt_area.glsl", "fetex_levels.glsl", "fetex_fbt_mip.glsl"})
-        library << std::ifstream(root + file).rdbuf();
-    for (const Dialect dialect : kDialects) {
-        std::stringstream prelude;
-        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        ASSERT_GT(prelude.str().size() + library.str().size(), 5000u);
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* samples : {"", "#define FETEX_FBT_SAMPLES 1\n", "#define FETEX_FBT_SAMPLES 2\n"})
-            EXPECT_EQ(run(prelude.str() + samples + library.str() + main_text, "plain.frag", tool), "");
-    }
+    const std::vector<std::string> files = {"fetex_fbt.glsl", "fetex_fbt_area.glsl", "fetex_levels.glsl",
+                                            "fetex_fbt_mip.glsl"};
+    expect_to_compile_by_hand(files, main_text, {"", "#define FETEX_FBT_SAMPLES 1\n", "#define FETEX_FBT_SAMPLES 2\n"});
 }
 
 TEST_F(Shaders, crossToHlslMetalAndEs) {
-    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
-        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
+    FETEXC_NEEDS_SPIRV_CROSS;
     const std::vector<FbtTexture> all = all_specialisations();
-    const fs::path binary = folder_ / "shader.spv";
     for (std::size_t k = 0; k < all.size(); k += 7) {
-        ASSERT_EQ(run(k % 2 == 0 ? fbt_fragment_source(Dialect::Vulkan450, all[k], false, Filter::Area)
-                                 : fbt_mip_fragment_source(Dialect::Vulkan450, all[k]),
-                      "cross.frag", "glslangValidator -V -o " + binary.string() + " @"),
-                  "");
-        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es", "--version 330 --no-es"})
-            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
-        // What comes out for ES must compile again.
-        EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " --version 310 --es --output @"), "");
-        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
-        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+        expect_to_cross(k % 2 == 0 ? fbt_fragment_source(Dialect::Vulkan450, all[k], false, Filter::Area)
+                                   : fbt_mip_fragment_source(Dialect::Vulkan450, all[k]),
+                        {"--version 330 --no-es"});
     }
 }
 
@@ -177,15 +124,13 @@ std::vector<std::pair<BilevelTexture, bool>> all_bilevels() {
 }
 
 TEST_F(Shaders, ofBilevelTexturesCompileInEveryDialect) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     for (const Dialect dialect : kDialects) {
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
         for (const auto& [texture, filtered] : all_bilevels()) {
             for (const Filter filter : {Filter::Point, Filter::Area})
-                EXPECT_EQ(run(bilevel_fragment_source(dialect, texture, filter, filtered), "bilevel.frag", tool), "");
+                expect_to_compile(dialect, bilevel_fragment_source(dialect, texture, filter, filtered));
             if (!texture.mips.empty()) {
-                EXPECT_EQ(run(bilevel_mip_fragment_source(dialect, texture, filtered), "mip.frag", tool), "");
+                expect_to_compile(dialect, bilevel_mip_fragment_source(dialect, texture, filtered));
             }
         }
     }
@@ -193,41 +138,24 @@ TEST_F(Shaders, ofBilevelTexturesCompileInEveryDialect) {
 
 /// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
 TEST_F(Shaders, ofBilevelTexturesCompileByHand) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
-    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
     const std::string main_text =
-        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
-        "void main() { color = fetexBilevelSample(uv) * fetexBilevelValue(uv) + fetexBilevelSampleArea(uv, vec2(0.1))\n"
+        "void main() { color = fetexBilevelSample(uv) * fetexBilevelValue(uv) + fetexBilevelSampleArea(uv, "
+        "vec2(0.1))\n"
         "#if FETEX_BILEVEL_MIPS\n    + fetexBilevelSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
-    std::stringstream library;
-    for (const char* file : {"fetex_levels.glsl", "fetex_bilevel.glsl"})
-        library << std::ifstream(root + file).rdbuf();
-    ASSERT_GT(library.str().size(), 5000u);
-    for (const Dialect dialect : kDialects) {
-        std::stringstream prelude;
-        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* macros :
-             {"", "#define FETEX_BILEVEL_RULE 3\n#define FETEX_BILEVEL_MIPS 1\n",
-              "#define FETEX_BILEVEL_FILTERED 1\n#define FETEX_BILEVEL_IMAGE 1\n", "#define FETEX_BILEVEL_GATHER 0\n"})
-            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
-    }
+    const std::vector<std::string> files = {"fetex_levels.glsl", "fetex_bilevel.glsl"};
+    expect_to_compile_by_hand(files, main_text,
+                              {"", "#define FETEX_BILEVEL_RULE 3\n#define FETEX_BILEVEL_MIPS 1\n",
+                               "#define FETEX_BILEVEL_FILTERED 1\n#define FETEX_BILEVEL_IMAGE 1\n",
+                               "#define FETEX_BILEVEL_GATHER 0\n"});
 }
 
 TEST_F(Shaders, ofBilevelTexturesCrossToHlslMetalAndEs) {
-    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
-        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
-    const fs::path binary = folder_ / "shader.spv";
+    FETEXC_NEEDS_GLSLANG;
+    FETEXC_NEEDS_SPIRV_CROSS;
     for (const auto& [texture, filtered] : all_bilevels()) {
-        const std::string source = texture.mips.empty()
-                                       ? bilevel_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
-                                       : bilevel_mip_fragment_source(Dialect::Vulkan450, texture, filtered);
-        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
-        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
-            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
-        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
-        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+        expect_to_cross(texture.mips.empty()
+                            ? bilevel_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
+                            : bilevel_mip_fragment_source(Dialect::Vulkan450, texture, filtered));
     }
 }
 
@@ -242,8 +170,7 @@ TEST_F(Shaders, ofBilevelTexturesHaveWhatTheAssetNeeds) {
         EXPECT_NE(text.find(line), std::string::npos) << line << text;
     EXPECT_NE(bilevel_specialisation(t, true).find("#define FETEX_BILEVEL_FILTERED 1\n"), std::string::npos);
     for (const Dialect dialect : kDialects)
-        for (const char c : bilevel_mip_fragment_source(dialect, t) + bilevel_fragment_source(dialect, t, Filter::Area))
-            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+        expect_plain_ascii(bilevel_mip_fragment_source(dialect, t) + bilevel_fragment_source(dialect, t, Filter::Area));
 }
 
 /// All formats that shaders tell apart, with and without levels, nearest and filtered.
@@ -263,15 +190,13 @@ std::vector<std::pair<SilmapTexture, SilmapFilter>> all_silmaps() {
 }
 
 TEST_F(Shaders, ofSilmapTexturesCompileInEveryDialect) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     for (const Dialect dialect : kDialects) {
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
         for (const auto& [texture, silmap] : all_silmaps()) {
             for (const Filter filter : {Filter::Point, Filter::Area})
-                EXPECT_EQ(run(silmap_fragment_source(dialect, texture, filter, silmap), "silmap.frag", tool), "");
+                expect_to_compile(dialect, silmap_fragment_source(dialect, texture, filter, silmap));
             if (!texture.mips.empty()) {
-                EXPECT_EQ(run(silmap_mip_fragment_source(dialect, texture, silmap), "mip.frag", tool), "");
+                expect_to_compile(dialect, silmap_mip_fragment_source(dialect, texture, silmap));
             }
         }
     }
@@ -279,42 +204,23 @@ TEST_F(Shaders, ofSilmapTexturesCompileInEveryDialect) {
 
 /// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
 TEST_F(Shaders, ofSilmapTexturesCompileByHand) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
-    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
-    const std::string main_text = "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
-                                  "void main() { color = fetexSilmapSample(uv) + fetexSilmapSampleArea(uv, vec2(0.1))\n"
+    const std::string main_text = "void main() { color = fetexSilmapSample(uv) + fetexSilmapSampleArea(uv, vec2(0.1))\n"
                                   "#if FETEX_SILMAP_MIPS\n    + fetexSilmapSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
-    std::stringstream library;
-    library << std::ifstream(root + "fetex_levels.glsl").rdbuf() << std::ifstream(root + "fetex_silmap.glsl").rdbuf();
-    ASSERT_GT(library.str().size(), 5000u);
-    for (const Dialect dialect : kDialects) {
-        std::stringstream prelude;
-        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* macros :
-             {"", "#define FETEX_SILMAP_BITS 7\n#define FETEX_SILMAP_MIPS 1\n", "#define FETEX_SILMAP_SAMPLES 1\n",
-              "#define FETEX_SILMAP_FILTERED 0\n", "#define FETEX_SILMAP_GATHER 0\n"})
-            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
-        if (dialect != Dialect::Vulkan450) continue; // the others have it as it is, or not at all
-        EXPECT_EQ(
-            run(prelude.str() + "#define FETEX_SILMAP_GATHER 1\n" + library.str() + main_text, "plain.frag", tool), "");
-    }
+    const std::vector<std::string> files = {"fetex_levels.glsl", "fetex_silmap.glsl"};
+    expect_to_compile_by_hand(files, main_text,
+                              {"", "#define FETEX_SILMAP_BITS 7\n#define FETEX_SILMAP_MIPS 1\n",
+                               "#define FETEX_SILMAP_SAMPLES 1\n", "#define FETEX_SILMAP_FILTERED 0\n",
+                               "#define FETEX_SILMAP_GATHER 0\n"});
+    // The others have it as it is, or not at all.
+    expect_to_compile_by_hand(files, main_text, {"#define FETEX_SILMAP_GATHER 1\n"}, std::array{Dialect::Vulkan450});
 }
 
 TEST_F(Shaders, ofSilmapTexturesCrossToHlslMetalAndEs) {
-    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
-        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
-    const fs::path binary = folder_ / "shader.spv";
+    FETEXC_NEEDS_GLSLANG;
+    FETEXC_NEEDS_SPIRV_CROSS;
     for (const auto& [texture, silmap] : all_silmaps()) {
-        const std::string source = texture.mips.empty()
-                                       ? silmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, silmap)
-                                       : silmap_mip_fragment_source(Dialect::Vulkan450, texture, silmap);
-        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
-        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
-            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
-        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
-        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+        expect_to_cross(texture.mips.empty() ? silmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, silmap)
+                                             : silmap_mip_fragment_source(Dialect::Vulkan450, texture, silmap));
     }
 }
 
@@ -328,8 +234,7 @@ TEST_F(Shaders, ofSilmapTexturesHaveWhatTheAssetNeeds) {
               "#define FETEX_SILMAP_BITS 3\n#define FETEX_SILMAP_SAMPLES 0\n#define FETEX_SILMAP_FILTERED 1\n"
               "#define FETEX_SILMAP_MIPS 0\n");
     for (const Dialect dialect : kDialects)
-        for (const char c : silmap_mip_fragment_source(dialect, t) + silmap_fragment_source(dialect, t, Filter::Area))
-            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+        expect_plain_ascii(silmap_mip_fragment_source(dialect, t) + silmap_fragment_source(dialect, t, Filter::Area));
 }
 
 /// All formats that shaders tell apart, with and without levels, a line and the hardware's filter.
@@ -350,15 +255,13 @@ std::vector<std::pair<PinchmapTexture, bool>> all_pinchmaps() {
 }
 
 TEST_F(Shaders, ofPinchmapsCompileInEveryDialect) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     for (const Dialect dialect : kDialects) {
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
         for (const auto& [texture, filtered] : all_pinchmaps()) {
             for (const Filter filter : {Filter::Point, Filter::Area})
-                EXPECT_EQ(run(pinchmap_fragment_source(dialect, texture, filter, filtered), "pinchmap.frag", tool), "");
+                expect_to_compile(dialect, pinchmap_fragment_source(dialect, texture, filter, filtered));
             if (!texture.mips.empty()) {
-                EXPECT_EQ(run(pinchmap_mip_fragment_source(dialect, texture, filtered), "mip.frag", tool), "");
+                expect_to_compile(dialect, pinchmap_mip_fragment_source(dialect, texture, filtered));
             }
         }
     }
@@ -366,41 +269,24 @@ TEST_F(Shaders, ofPinchmapsCompileInEveryDialect) {
 
 /// As an engine uses the plain file: prelude, some macros or none, library, a main of its own.
 TEST_F(Shaders, ofPinchmapsCompileByHand) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
-    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
     const std::string main_text =
-        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
         "void main() { color = fetexPinchmapSample(uv) + fetexPinchmapSampleArea(uv, vec2(0.1))\n"
         "    + fetexPinchmapPlaceAt(ivec2(1), uv, vec2(0.0)).line\n"
         "#if FETEX_PINCHMAP_MIPS\n    + fetexPinchmapSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
-    std::stringstream library;
-    library << std::ifstream(root + "fetex_levels.glsl").rdbuf() << std::ifstream(root + "fetex_pinchmap.glsl").rdbuf();
-    ASSERT_GT(library.str().size(), 5000u);
-    for (const Dialect dialect : kDialects) {
-        std::stringstream prelude;
-        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* macros : {"", "#define FETEX_PINCHMAP_BITS 16\n#define FETEX_PINCHMAP_MIPS 1\n",
-                                   "#define FETEX_PINCHMAP_SAMPLES 1\n#define FETEX_PINCHMAP_SCALE 3\n",
-                                   "#define FETEX_PINCHMAP_FILTERED 1\n#define FETEX_PINCHMAP_LINE_WIDTH 0.1\n"})
-            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
-    }
+    const std::vector<std::string> files = {"fetex_levels.glsl", "fetex_pinchmap.glsl"};
+    expect_to_compile_by_hand(files, main_text,
+                              {"", "#define FETEX_PINCHMAP_BITS 16\n#define FETEX_PINCHMAP_MIPS 1\n",
+                               "#define FETEX_PINCHMAP_SAMPLES 1\n#define FETEX_PINCHMAP_SCALE 3\n",
+                               "#define FETEX_PINCHMAP_FILTERED 1\n#define FETEX_PINCHMAP_LINE_WIDTH 0.1\n"});
 }
 
 TEST_F(Shaders, ofPinchmapsCrossToHlslMetalAndEs) {
-    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
-        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
-    const fs::path binary = folder_ / "shader.spv";
+    FETEXC_NEEDS_GLSLANG;
+    FETEXC_NEEDS_SPIRV_CROSS;
     for (const auto& [texture, filtered] : all_pinchmaps()) {
-        const std::string source = texture.mips.empty()
-                                       ? pinchmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
-                                       : pinchmap_mip_fragment_source(Dialect::Vulkan450, texture, filtered);
-        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
-        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
-            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
-        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
-        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+        expect_to_cross(texture.mips.empty()
+                            ? pinchmap_fragment_source(Dialect::Vulkan450, texture, Filter::Area, filtered)
+                            : pinchmap_mip_fragment_source(Dialect::Vulkan450, texture, filtered));
     }
 }
 
@@ -411,10 +297,10 @@ std::size_t count(const std::string& text, const std::string& what) {
     return found;
 }
 
-/// Where the hardware filters, a lookup is one fetch of each texture; else four. Every function that fetches is called
-/// once in a lookup.
+/// Where the hardware filters, a lookup is one fetch of each texture; else four. Every function that fetches is
+/// called once in a lookup.
 TEST_F(Shaders, ofPinchmapsFetchEachTextureOnceThroughTheFilter) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     PinchmapTexture t;
     t.mips = {0};
     for (const bool filtered : {true, false}) {
@@ -422,9 +308,7 @@ TEST_F(Shaders, ofPinchmapsFetchEachTextureOnceThroughTheFilter) {
         ASSERT_EQ(run(pinchmap_mip_fragment_source(Dialect::Glsl330, t, filtered), "one.frag",
                       "glslangValidator -E @ 2>/dev/null | tr -d ' ' | tee " + name),
                   "");
-        std::stringstream read;
-        read << std::ifstream(name).rdbuf();
-        const std::string text = read.str(), filter = "textureLod(fetexPinchmap", fetch = "texelFetch(fetexPinchmap";
+        const std::string text = text_of(name), filter = "textureLod(fetexPinchmap", fetch = "texelFetch(fetexPinchmap";
         ASSERT_GT(text.size(), 1000u);
         for (const char* texture : {"Map,", "Signal,"}) {
             EXPECT_EQ(count(text, filter + texture), filtered ? 1u : 0u) << texture;
@@ -452,9 +336,8 @@ TEST_F(Shaders, ofPinchmapsHaveWhatTheAssetNeeds) {
     EXPECT_NE(pinchmap_specialisation({}).find("#define FETEX_PINCHMAP_LINE_WIDTH 0.000000000e+00\n"),
               std::string::npos);
     for (const Dialect dialect : kDialects)
-        for (const char c :
-             pinchmap_mip_fragment_source(dialect, t) + pinchmap_fragment_source(dialect, t, Filter::Area))
-            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+        expect_plain_ascii(pinchmap_mip_fragment_source(dialect, t) +
+                           pinchmap_fragment_source(dialect, t, Filter::Area));
 }
 
 /// Everything that shaders tell apart: kinds and numbers; segments, curves and open edges; levels.
@@ -479,97 +362,70 @@ std::vector<FeatureCurvesTraits> all_feature_curves() {
 }
 
 TEST_F(Shaders, ofFeatureCurvesCompileInEveryDialect) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     for (const Dialect dialect : kDialects) {
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
         for (const FeatureCurvesTraits& traits : all_feature_curves())
-            EXPECT_EQ(run(traits.mips ? feature_curves_mip_fragment_source(dialect, traits)
-                                      : feature_curves_fragment_source(dialect, traits,
-                                                                       traits.open ? Filter::Area : Filter::Point),
-                          "curves.frag", tool),
-                      "");
+            expect_to_compile(dialect, traits.mips ? feature_curves_mip_fragment_source(dialect, traits)
+                                                   : feature_curves_fragment_source(
+                                                         dialect, traits, traits.open ? Filter::Area : Filter::Point));
     }
 }
 
 TEST_F(Shaders, ofFeatureCurvesCompileByHand) {
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
-    const std::string root = std::string(FETEXC_ART_DIR) + "/../../runtime_glsl/";
     const std::string main_text =
-        "FETEX_VARYING(0) in highp vec2 uv;\nFETEX_VARYING(0) out highp vec4 color;\n"
         "void main() { color = fetexFeatureSample(uv) + fetexFeatureSampleArea(uv, vec2(0.1))\n"
         "    + fetexFeatureFind(ivec2(1), uv).distance\n"
         "#if FETEX_FEATURE_MIPS\n    + fetexFeatureSampleMip(uv, vec2(3.0))\n#endif\n; }\n";
-    std::stringstream library;
-    library << std::ifstream(root + "fetex_levels.glsl").rdbuf()
-            << std::ifstream(root + "fetex_feature_curves.glsl").rdbuf();
-    ASSERT_GT(library.str().size(), 5000u);
-    for (const Dialect dialect : kDialects) {
-        std::stringstream prelude;
-        prelude << std::ifstream(root + "fetex_prelude_" + dialect_name(dialect) + ".glsl").rdbuf();
-        const std::string tool =
-            dialect == Dialect::Vulkan450 ? "glslangValidator -V -o /dev/null @" : "glslangValidator @";
-        for (const char* macros :
-             {"", "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_MIPS 1\n",
-              "#define FETEX_FEATURE_LINEAR 1\n#define FETEX_FEATURE_BITS16 1\n",
-              "#define FETEX_FEATURE_KIND 2\n#define FETEX_FEATURE_SEGMENTS 1\n", "#define FETEX_FEATURE_PROFILES 2\n",
-              "#define FETEX_FEATURE_PROFILES 16\n#define FETEX_FEATURE_OPEN 0\n"
-              "#define FETEX_FEATURE_SEGMENTS 1\n"})
-            EXPECT_EQ(run(prelude.str() + macros + library.str() + main_text, "plain.frag", tool), "") << macros;
-    }
+    const std::vector<std::string> files = {"fetex_levels.glsl", "fetex_feature_curves.glsl"};
+    expect_to_compile_by_hand(files, main_text,
+                              {"", "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_MIPS 1\n",
+                               "#define FETEX_FEATURE_LINEAR 1\n#define FETEX_FEATURE_BITS16 1\n",
+                               "#define FETEX_FEATURE_KIND 2\n#define FETEX_FEATURE_SEGMENTS 1\n",
+                               "#define FETEX_FEATURE_PROFILES 2\n",
+                               "#define FETEX_FEATURE_PROFILES 16\n#define FETEX_FEATURE_OPEN 0\n"
+                               "#define FETEX_FEATURE_SEGMENTS 1\n"});
 }
 
 TEST_F(Shaders, ofFeatureCurvesCrossToHlslMetalAndEs) {
-    if (!has_tool("glslangValidator") || !has_tool("spirv-cross"))
-        GTEST_SKIP() << "glslangValidator or spirv-cross (packages glslang-tools, spirv-cross) isn't installed";
-    const fs::path binary = folder_ / "shader.spv";
+    FETEXC_NEEDS_GLSLANG;
+    FETEXC_NEEDS_SPIRV_CROSS;
     for (const FeatureCurvesTraits& traits : all_feature_curves()) {
-        const std::string source = traits.mips
-                                       ? feature_curves_mip_fragment_source(Dialect::Vulkan450, traits)
-                                       : feature_curves_fragment_source(Dialect::Vulkan450, traits, Filter::Area);
-        ASSERT_EQ(run(source, "cross.frag", "glslangValidator -V -o " + binary.string() + " @"), "");
-        for (const char* target : {"--hlsl --shader-model 50", "--msl", "--version 310 --es"})
-            EXPECT_EQ(run("", "out", "spirv-cross " + binary.string() + " " + target + " --output @"), "") << target;
-        fs::copy_file(folder_ / "out", folder_ / "es.frag", fs::copy_options::overwrite_existing);
-        EXPECT_EQ(std::system(("glslangValidator " + (folder_ / "es.frag").string() + " >/dev/null").c_str()), 0);
+        expect_to_cross(traits.mips ? feature_curves_mip_fragment_source(Dialect::Vulkan450, traits)
+                                    : feature_curves_fragment_source(Dialect::Vulkan450, traits, Filter::Area));
     }
 }
 
-/// Linear assets solve no equation, have no angles, and fetch two edges of a segment; without open edges nobody looks
-/// for them.
+/// Linear assets solve no equation, have no angles, and fetch two edges of a segment; without open edges nobody
+/// looks for them.
 TEST_F(Shaders, ofFeatureCurvesHaveWhatTheAssetNeeds) {
     FeatureCurvesTraits lines;
     lines.linear = true, lines.segments = 1, lines.kind = FeatureKind::Normal, lines.gradients = true;
     lines.distance_limit = 4;
     EXPECT_EQ(feature_curves_specialisation(lines),
-              "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_LIMIT 4.000000000e+00\n#define FETEX_FEATURE_LINEAR "
+              "#define FETEX_FEATURE_KIND 1\n#define FETEX_FEATURE_LIMIT 4.000000000e+00\n#define "
+              "FETEX_FEATURE_LINEAR "
               "1\n#define FETEX_FEATURE_BITS16 0\n#define FETEX_FEATURE_GRADIENTS 1\n#define FETEX_FEATURE_SEGMENTS "
               "1\n#define FETEX_FEATURE_CURVES 0\n#define FETEX_FEATURE_OPEN 0\n#define FETEX_FEATURE_PROFILES "
               "1\n#define FETEX_FEATURE_SAMPLES "
               "0\n#define FETEX_FEATURE_ONE_SAMPLE 0\n#define FETEX_FEATURE_NORMAL_FACTOR "
               "2.007874016e+00\n#define FETEX_FEATURE_HEIGHT_SCALE 1.000000000e+00\n#define FETEX_FEATURE_MIPS 0\n");
     for (const Dialect dialect : kDialects)
-        for (const char c : feature_curves_mip_fragment_source(dialect, lines))
-            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+        expect_plain_ascii(feature_curves_mip_fragment_source(dialect, lines));
+    FETEXC_NEEDS_GLSLANG;
     const std::string name = (folder_ / "preprocessed").string();
     ASSERT_EQ(run(feature_curves_fragment_source(Dialect::Glsl330, lines), "one.frag",
                   "glslangValidator -E @ 2>/dev/null | tr -d ' ' | tee " + name),
               "");
-    std::stringstream read;
-    read << std::ifstream(name).rdbuf();
-    const std::string text = read.str();
+    const std::string text = text_of(name);
     ASSERT_GT(text.size(), 1000u);
     for (const char* absent : {"cos(", "standIn", "fetexFeatureDip", "fetexFeatureBeside", "fetexFeatureMixed"})
         EXPECT_EQ(count(text, absent), 0u) << absent;
     EXPECT_EQ(count(text, "=fetexFeatureCrossing("), 2u);
 }
 
-/// Some drivers and WebGL refuse other characters, even in comments; and tabs confuse line numbers.
 TEST_F(Shaders, arePlainAscii) {
     for (const Dialect dialect : kDialects)
-        for (const char c : fbt_fragment_source(dialect, {}) + fbt_mip_fragment_source(dialect, {}))
-            ASSERT_TRUE(c == '\n' || (c >= 32 && c < 127)) << static_cast<int>(c);
+        expect_plain_ascii(fbt_fragment_source(dialect, {}) + fbt_mip_fragment_source(dialect, {}));
 }
 
 /// What an asset doesn't need isn't in its shader.
@@ -586,7 +442,7 @@ TEST_F(Shaders, leaveOutWhatTheAssetDoesNotNeed) {
     FbtTexture chain = lines;
     chain.mips = {0};
     EXPECT_NE(fbt_library_source(Dialect::Glsl330, chain).find("fetexFbtSampleMip"), std::string::npos);
-    if (!has_tool("glslangValidator")) GTEST_SKIP() << "glslangValidator (package glslang-tools) isn't installed";
+    FETEXC_NEEDS_GLSLANG;
     const std::string preprocessed_cubic = "glslangValidator -E @ | grep -q fetexFbtSolveCubic";
     EXPECT_NE(run(fbt_fragment_source(Dialect::Glsl330, lines), "lines.frag", preprocessed_cubic), "");
     lines.traits.degrees = 8;
