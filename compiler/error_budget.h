@@ -473,6 +473,17 @@ inline constexpr double kFeatureFitShift = 1e-8;
 inline constexpr double kFeatureFitSlack = 1e-13;
 /// Relative: merits closer than some roundings are the same.
 inline constexpr double kFeatureFitRounding = 1e-14;
+/// Texels, and energy a texel: a variable is beyond a bound, or pulls away from one that holds it, if by more than the
+/// step's solution is rounded by (2^-53 times the condition that kFeatureFitShift and scaling leave, some 10^3).
+inline constexpr double kFeatureFitBound = 1e-12;
+
+/// Squared texels: rounding makes no distance of a feature curve so much smaller, coordinates being below 2^14 and
+/// distances below 2^16 (some products of 2^32, each rounded to 2^-53 of it).
+inline constexpr double kFeatureDistanceRounding = 0x1p-18;
+
+/// Of a plot's labels: a place is better if its cost is less by more than sums of some hundred costs, each below 10^4,
+/// are rounded to.
+inline constexpr double kLabelWorth = 1e-9;
 
 /// Square clusters: a search for zones keeps what costs less by more than sums of its steps' differences round to (some
 /// 10^6 steps of 2^-53).

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/error_budget.h"
+
 namespace fetexc::cli {
 namespace {
 
@@ -116,7 +118,6 @@ class LabelLayout {
         return cost;
     }
     bool move(Choice& a, Choice& b) const {
-        constexpr double worth = 1e-9; // above roundings of sums
         std::vector<double> cost_a, cost_b;
         for (const Place& p : a.places)
             cost_a.push_back(cost(p, a, b));
@@ -129,7 +130,8 @@ class LabelLayout {
         bool moved = false;
         for (std::size_t i = 0; i < a.places.size(); ++i) {
             for (std::size_t k = 0; k < b.places.size(); ++k) {
-                if (both(i, k) < best - worth) best = both(i, k), a.chosen = i, b.chosen = k, moved = true;
+                if (both(i, k) < best - budget::kLabelWorth)
+                    best = both(i, k), a.chosen = i, b.chosen = k, moved = true;
             }
         }
         return moved;

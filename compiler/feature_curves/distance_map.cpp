@@ -13,8 +13,6 @@ namespace fetexc {
 namespace {
 
 constexpr std::size_t kRows = 8; ///< of corners, for a thread at a time
-/// Squared texels: rounding makes no distance so much smaller, coordinates being below 2^14 and distances below 2^16.
-constexpr double kRounding = 0x1p-18;
 
 /// Of two corners; each number is rounded as if alone.
 using Pair [[gnu::vector_size(16)]] = double;
@@ -163,7 +161,8 @@ class Rasteriser {
     /// Texels that a square of 2·ring + 2 texels around the corner has on its border, but those beyond the distance.
     /// False if one of them has curves, or some weren't looked at.
     bool look_at_ring(std::uint32_t i, std::uint32_t j, std::uint32_t ring, Nearest& best) const {
-        const std::uint32_t reach = static_cast<std::uint32_t>(std::sqrt(best.squared + kRounding - ring * ring));
+        const std::uint32_t reach =
+            static_cast<std::uint32_t>(std::sqrt(best.squared + budget::kFeatureDistanceRounding - ring * ring));
         bool empty = reach >= ring;
         const auto look = [&](std::uint32_t x, std::uint32_t y) {
             empty = false;

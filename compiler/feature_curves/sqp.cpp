@@ -153,10 +153,10 @@ class Step {
             double by = 0;
             if (p == Place::Free) {
                 by = std::max(low_[k] - d[k], d[k] - high_[k]);
-                if (by > kRounding) to = d[k] < low_[k] ? Place::Low : Place::High;
+                if (by > budget::kFeatureFitBound) to = d[k] < low_[k] ? Place::Low : Place::High;
             } else {
                 by = p == Place::Low ? -pull[k] : pull[k];
-                if (by > kRounding && low_[k] < high_[k]) to = Place::Free;
+                if (by > budget::kFeatureFitBound && low_[k] < high_[k]) to = Place::Free;
             }
             if (to == p) continue;
             any = true;
@@ -167,7 +167,6 @@ class Step {
         return any;
     }
 
-    static constexpr double kRounding = 1e-12;
     const Matrix& b_;
     const Factor& whole_;
     const Vector& g_;
