@@ -34,7 +34,7 @@ struct Faces {
 class Checker {
   public:
     Checker(const Scene& scene, const MapCheckOptions& options, const PlanarMap& map)
-        : scene_(scene), options_(options), map_(map), compositor_(scene), mapper_(map, scene, compositor_, stats_),
+        : options_(options), map_(map), compositor_(scene), mapper_(map, scene, compositor_, stats_),
           random_(options.seed) {
         for (const Shape& shape : scene.shapes) {
             shapes_.emplace_back();
@@ -279,7 +279,6 @@ class Checker {
         }
     }
 
-    const Scene& scene_;
     const MapCheckOptions& options_;
     const PlanarMap& map_;
     PlanarStats stats_;
