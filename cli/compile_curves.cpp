@@ -17,6 +17,8 @@
 namespace fetexc::cli {
 namespace {
 
+/// The drawing's units: what options of lengths take.
+constexpr double kLeastLength = 1e-9, kMostLength = 1e12;
 constexpr std::uint64_t kMaxProfileBytes = std::uint64_t{1} << 24;
 constexpr std::uint32_t kMostIterations = 10000;
 constexpr double kMostTexels = 65504;           // of the distance limit: the format's
@@ -231,7 +233,7 @@ std::vector<CLI::Option*> add_shown_options(CLI::App& app, CurvesCommandOptions&
     add(app.add_option("--profile-width", options.profile_width,
                        "How far a profile of those four reaches, in the drawing's units; default: a 64th of its "
                        "larger side"))
-        ->check(number_range(1e-9, 1e12))
+        ->check(number_range(kLeastLength, kMostLength))
         ->needs(profile)
         ->type_name("UNITS");
     CLI::Option* base =
@@ -241,7 +243,7 @@ std::vector<CLI::Option*> add_shown_options(CLI::App& app, CurvesCommandOptions&
     base->type_name("IMAGE");
     add(app.add_option("--base-height", options.base_height,
                        "The --base is heights, of which white has so many of the drawing's units"))
-        ->check(number_range(1e-9, 1e12))
+        ->check(number_range(kLeastLength, kMostLength))
         ->needs(base)
         ->type_name("UNITS");
     add(app.add_option("--base-color", options.base_color,
@@ -282,7 +284,7 @@ std::vector<CLI::Option*> add_curves_options(CLI::App& app, CurvesCommandOptions
     add(app.add_option("--max-move", options.max_move,
                        "Of a texture with feature curves, with --size auto or --max-bytes: the smallest in which no "
                        "curve is farther from where it belongs, in the drawing's units"))
-        ->check(number_range(1e-9, 1e12))
+        ->check(number_range(kLeastLength, kMostLength))
         ->type_name("UNITS");
     return all;
 }
